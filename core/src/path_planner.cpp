@@ -110,7 +110,7 @@ PathResult plan_path(PathPlanner& planner, const PathQuery& query, RunContext& c
 
 namespace {
 
-/// The smaller of two limits of which 0 is none.
+/// The smaller of two limits; 0 = no limit.
 template <class T>
 T tighter(T a, T b) {
   return a > 0 && b > 0 ? std::min(a, b) : std::max(a, b);

@@ -41,7 +41,7 @@ Eigen::Matrix3d left_jacobian_inverse(const Eigen::Vector3d& w) {
   return Eigen::Matrix3d::Identity() - 0.5 * k + c * k * k;
 }
 
-/// Twist about the moving origin of the part: where it stands at `a`, which keeps far origins accurate.
+/// Twist about the part's origin at pose `a`; this stays accurate far from the world origin.
 struct Twist {
   Eigen::Vector3d w, v;
 };

@@ -69,7 +69,7 @@ std::uint64_t Rng::below(std::uint64_t n) {
 }
 
 double Rng::normal() {
-  // Box-Muller without a spare value: the state of the generator is then all there is to it.
+  // Box-Muller without a cached second value, so that the generator has no other state.
   const double u = 1.0 - uniform();
   const double v = uniform();
   return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
@@ -78,7 +78,7 @@ double Rng::normal() {
 Rng Rng::fork(std::uint64_t stream) const {
   std::uint64_t state = seed_;
   const std::uint64_t a = split_mix(state);
-  state = stream ^ 0x6a09e667f3bcc909ull;  // so that stream s of seed s is nothing special
+  state = stream ^ 0x6a09e667f3bcc909ull;  // so that stream s of seed s is not a special case
   const std::uint64_t b = split_mix(state);
   state = a ^ std::rotl(b, 32);
   return Rng(split_mix(state));

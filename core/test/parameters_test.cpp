@@ -76,7 +76,7 @@ struct Holder {
   }
 };
 
-// Law: what a parameter names is what its reference makes, each time anew, through the host's maker alone.
+// Law: a reference creates a new object of the named type on each call, only through the host's maker.
 TEST(Schema, BindsPlugins) {
   const Schema<Holder> schema;
   EXPECT_EQ(problems_of_schema(schema.specs()), std::vector<std::string>{});
@@ -167,7 +167,7 @@ TEST(ParamSpec, WhatTheMemberCannotHoldIsOutOfRange) {
   EXPECT_FALSE(spec(schema, "depth").problem_with((std::int64_t{1} << 32) - 1));
 }
 
-// Law: a value is accepted exactly when it lies between the bounds, open ends left out.
+// Law: a value is accepted exactly if it lies between the bounds; open bounds are excluded.
 TEST(ParamSpec, RangeLaw) {
   Rng rng(7);
   for (int i = 0; i < 2000; ++i) {

@@ -1,4 +1,4 @@
-// Laws of objects that plugins share: one for each name, as long as somebody holds it.
+// Laws of objects that plugins share: one for each name, as long as it has an owner.
 #include "dismantle/shared_object.h"
 
 #include <gtest/gtest.h>

@@ -21,9 +21,9 @@ namespace dismantle {
 /// Index into Assembly::parts.
 using PartId = std::uint32_t;
 
-/// One rigid part. `mesh` holds the original triangles (welded, oriented, repaired), scaled to assembly
-/// units: it is what the verifier verifies. `surface` is the same surface with no edge longer than the
-/// `subdivide` parameter (appendix B.1, step 9): where simulators take their contact points.
+/// One rigid part. `mesh` holds the original triangles (welded, oriented, repaired), scaled to assembly units; the
+/// verifier works on it. `surface` is the same surface with no edge longer than the `subdivide` parameter (appendix
+/// B.1, step 9); simulators take their contact points from it.
 struct Part {
   PartId id = 0;
   std::string name;  ///< unique in the assembly
@@ -32,7 +32,7 @@ struct Part {
   std::shared_ptr<const Mesh> surface;
   double volume = 0;                 ///< assembly units cubed, > 0
   std::optional<Rgba> colour;        ///< as in its file
-  std::vector<std::string> parents;  ///< assemblies of its file that it is in, outermost first
+  std::vector<std::string> parents;  ///< assemblies in its file that contain it, outermost first
 };
 
 /// From input units to assembly units: internal = scale * (input - center).
@@ -41,13 +41,13 @@ struct Normalization {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   Eigen::Vector3d to_internal(const Eigen::Vector3d& p) const { return scale * (p - center); }
   Eigen::Vector3d to_input(const Eigen::Vector3d& p) const { return p / scale + center; }
-  /// A pose that acts on input coordinates and does what `p` does on internal ones, and back.
+  /// Converts a pose on internal coordinates to the equivalent pose on input coordinates, and back.
   Pose pose_to_input(const Pose& p) const { return {center - p.q * center + p.t / scale, p.q}; }
   Pose pose_to_internal(const Pose& p) const { return {scale * (p.t + p.q * center - center), p.q}; }
 };
 
-/// What preparation may do to a surface: the parameters of that name in PrepareOptions. Code that verifies a plan must
-/// look at the same surfaces.
+/// Surface repair settings: the parameters of the same names in PrepareOptions. A plan must be verified on surfaces
+/// that were repaired with the same settings.
 struct SurfaceRepair {
   double weld = 1e-6;
   bool repair = true;
@@ -59,10 +59,10 @@ struct SurfaceRepair {
 struct ExcludedPart {
   std::string name;
   std::string reason;
-  bool by_choice = false;  ///< a rule of the configuration left it out; else it could not be used
+  bool by_choice = false;  ///< excluded by a rule of the configuration; otherwise it was unusable
 };
 
-/// Parameters of importers that are not the default, by importer. The same files read with others are other surfaces.
+/// Importer parameters that differ from their defaults, by importer. Other values give other surfaces.
 using ImportParams = std::map<std::string, ParamSet>;
 
 /// Two parts that penetrate each other when assembled (usual in CAD). depth: assembly units, > 0.
@@ -70,11 +70,11 @@ struct InitialOverlap {
   PartId a = 0, b = 0;  ///< a < b
   double depth = 0;
   std::optional<OverlapPlace> place{};  ///< assembly units; none: not classified
-  /// What the user allows this pair, whatever it overlaps; assembly units. Then `depth` may be 0.
+  /// Depth that the user allows for this pair, whatever its overlap; assembly units. If set, `depth` may be 0.
   std::optional<double> declared{};
 
-  /// How deep the two may be in each other along a path: as deep as when assembled. Not where one lies in the solid of
-  /// the other or where both are the same body, since that depth would let them through each other.
+  /// Allowed penetration along a path: `declared` if set, otherwise the depth when assembled. For the classes `inside`
+  /// and `duplicate` the latter counts as 0, because it would let the parts pass through each other.
   double allowed() const {
     if (declared) return *declared;
     const bool through = place && (place->contact == ContactClass::inside || place->contact == ContactClass::duplicate);
@@ -82,7 +82,7 @@ struct InitialOverlap {
   }
 };
 
-/// What is planned: parts in assembled position, and how they relate to the input.
+/// Input of planning: the parts in assembled position, and their relation to the input files.
 struct Assembly {
   std::string source;  ///< as the user named it
   std::string sha256;  ///< of the input files' bytes, in name order
@@ -95,12 +95,12 @@ struct Assembly {
   std::vector<ExcludedPart> excluded;
   std::vector<InitialOverlap> overlaps;  ///< sorted by (a, b); measured on the original triangles
 
-  /// As InitialOverlap::allowed(), 0 for pairs that do not overlap.
+  /// InitialOverlap::allowed() of the pair; 0 if it has no entry.
   double initial_overlap(PartId a, PartId b) const {
     const InitialOverlap* o = overlap_of(a, b);
     return o == nullptr ? 0 : o->allowed();
   }
-  /// Null for pairs that neither overlap nor have a depth declared.
+  /// Null for pairs that neither overlap nor have a declared depth.
   const InitialOverlap* overlap_of(PartId a, PartId b) const {
     if (a > b) std::swap(a, b);
     for (const auto& o : overlaps)

@@ -1,4 +1,4 @@
-/// What kind of contact two parts have as they stand.
+/// Kinds of contact between two parts when assembled.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace dismantle {
 
-/// How two parts are in each other when assembled (docs/concepts.md).
+/// Contact of two parts when assembled (docs/concepts.md).
 enum class ContactClass {
   clearance,             ///< near, and apart everywhere
   kissing,               ///< they touch without an overlap
@@ -20,19 +20,19 @@ enum class ContactClass {
   inside,                ///< one lies in the solid of the other
 };
 
-/// The word that files and messages use.
+/// Name in files and messages.
 DISMANTLE_API std::string_view to_string(ContactClass contact);
-/// The class of that word; nothing for other words.
+/// Inverse of to_string(); empty for other texts.
 DISMANTLE_API std::optional<ContactClass> contact_class_from_string(std::string_view text);
 
-/// Where two parts overlap, and how. The unit and the frame are those of the struct that holds it.
+/// Location and kind of an overlap. Unit and frame are those of the struct that holds it.
 struct OverlapPlace {
   ContactClass contact = ContactClass::local_interference;
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< the deepest point
   Aabb region;                                   ///< of all surface points of one part in the other
-  double share = 0;  ///< of the surfaces that face each other nearby, what overlaps: [0, 1] of the area
-  std::optional<Eigen::Vector3d> axis{};                 ///< unit; of a uniform overlap all around an axis
-  Eigen::Vector3d axis_point = Eigen::Vector3d::Zero();  ///< on the axis, where there is one
+  double share = 0;  ///< overlapping share of the nearby surfaces that face each other: [0, 1] of the area
+  std::optional<Eigen::Vector3d> axis{};                 ///< unit; set for a uniform overlap around an axis
+  Eigen::Vector3d axis_point = Eigen::Vector3d::Zero();  ///< point on `axis`, if set
 };
 
 }  // namespace dismantle

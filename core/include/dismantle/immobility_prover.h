@@ -17,7 +17,7 @@ namespace dismantle {
 
 class PartMemo;
 
-/// How long a proof takes, found or not. The engine runs provers of low effort earlier and more often.
+/// Time that a proof attempt takes, successful or not. The engine runs provers of low effort earlier and more often.
 enum class ProofEffort {
   trivial,  ///< milliseconds: before every search
   low,      ///< up to a second or two: before searches of some depth
@@ -29,8 +29,8 @@ enum class ProofEffort {
 struct ProverTraits {
   ProofEffort effort = ProofEffort::low;
   std::size_t min_parts = 2, max_parts = 2;  ///< of the moving and the fixed parts together
-  /// False: what is proved of the parts as assembled holds wherever they have been moved since, because no valid motion
-  /// leads out of it; such provers are asked about parts as assembled only. True: the prover looks at where parts are.
+  /// False: the prover is only asked about parts as assembled. Its proofs still hold after valid motions, because these
+  /// cannot separate the parts. True: the prover uses the current poses.
   bool depends_on_poses = false;
 };
 
@@ -39,32 +39,32 @@ struct SeparationQuery {
   const Assembly& assembly;
   std::vector<PlacedPart> moving, fixed;  ///< not empty; distinct parts
   double tolerance = 0;                   ///< verify.max_penetration; assembly units, > 0
-  double share = 1;                       ///< (0, 1]: the proof is for motions that cut in by this share of `tolerance`
-  PartMemo& memo;                         ///< of `assembly`
+  double share = 1;  ///< (0, 1]: the proof covers motions that cut in by up to this share of `tolerance`
+  PartMemo& memo;    ///< of `assembly`
 
   double margin() const { return share * tolerance; }
 };
 
-/// Proves that parts cannot be separated. Sound: a certificate is never given for parts that a motion can separate
-/// which cuts in by no more than the initial overlap and margin(). Not complete: nothing means "not proved".
-/// Deterministic, on any number of threads; with work limited by counts, not seconds. const functions may be called
-/// from several threads.
+/// Proves that parts cannot be separated. Sound: there is no certificate if a motion separates the parts and cuts in by
+/// no more than the initial overlap plus margin(). Not complete: an empty result means "not proved". Deterministic on
+/// any number of threads; work is limited by counts, not seconds. const functions may be called from several threads.
 class DISMANTLE_API ImmobilityProver {
  public:
   virtual ~ImmobilityProver();
   virtual ProverTraits traits() const noexcept = 0;
-  /// Fills all of the certificate but `kind`, `full_tolerance` and `margin`, which the caller knows. The first of its
-  /// parts may be a fixed one: separating is mutual. Nothing when told to stop.
+  /// Fills the certificate except `kind`, `full_tolerance` and `margin`, which the caller sets. Its first part may be a
+  /// fixed one, because separation is mutual. Empty if `context` asks to stop.
   virtual std::optional<Certificate> prove(const SeparationQuery& query, const RunContext& context) const = 0;
-  /// What is wrong with a certificate of this kind; empty when it holds. The query has its first part moving and the
-  /// others fixed, where the certificate has them. This proves the claim again and compares parts and numbers.
+  /// Checks a certificate of this kind; returns the problem, or an empty string if it holds. In the query its first
+  /// part moves and the others are fixed, at its poses. The default proves the claim again and compares parts and
+  /// numbers.
   virtual std::string objection(const Certificate& certificate, const SeparationQuery& query,
                                 const RunContext& context) const;
 };
 
 /// A question about parts as they are assembled, to be answered by the provers of one effort.
 struct SeparationQuestion {
-  std::vector<PartId> parts;  ///< >= 2; of a pair: the one from the other, of more: any of them from the others
+  std::vector<PartId> parts;  ///< >= 2; a pair: one from the other; more parts: any of them from the others
   ProofEffort effort = ProofEffort::low;
   double share = 1;  ///< as SeparationQuery::share
   auto operator<=>(const SeparationQuestion&) const = default;

@@ -42,16 +42,16 @@ struct ParamSpec {
   bool required = false;             ///< there is no default: `fallback` is not a value
   bool may_be_empty = false;         ///< `plugins`: an empty list is a value
 
-  /// What is wrong with `value`, or nothing. Checks type, range and choice; of plugins not their own parameters.
+  /// The problem with `value`, if any. Checks type, range and choice, but not the parameters of plugins.
   DISMANTLE_API std::optional<std::string> problem_with(const ParamValue& value) const;
   DISMANTLE_API std::string range_text() const;  ///< "[0, 1)", ">= 0", "" when unbounded
 };
 
-/// Everything wrong with the declarations themselves (no doc, no unit, default out of range, bad name, twice).
+/// Problems of the declarations themselves (no doc, no unit, default out of range, bad or duplicate name).
 DISMANTLE_API std::vector<std::string> problems_of_schema(const std::vector<ParamSpec>& specs);
-/// `given` completed with the defaults; of a choice of plugins its options, not its parameters, which only the host
-/// knows. Unknown names, bad values and required ones that are absent throw std::invalid_argument (the YAML binder has
-/// found them before, with their places).
+/// `given` completed with the defaults. Completes the options of plugin choices, but not their parameters, which only
+/// the host knows. Throws std::invalid_argument for unknown names, bad values and missing required parameters (the YAML
+/// binder reports these earlier, with their locations).
 DISMANTLE_API ParamSet complete(const std::vector<ParamSpec>& specs, const ParamSet& given);
 
 /// How a number is declared: {.unit = "s", .min = 0, .doc = "..."}.
@@ -74,8 +74,8 @@ struct EnumChoice {
 /// the only place where they are written:
 ///   struct P { double range = 0.05; static void describe(Schema<P>& s) { s.add("range", &P::range, {...}); } };
 /// Plugins: a member `PluginRef<PathPlanner>`, or a vector of them, or a vector of a struct with a member
-/// `PluginRef<...> plugin` and a `describe` that declares what else each item of the list holds (then the default has to
-/// be empty). A reference without a default type, and an empty list, make the parameter required.
+/// `PluginRef<...> plugin` and a `describe` that declares the other members of each item (then the default has to be
+/// empty). A reference without a default type, and an empty list, make the parameter required.
 template <class T>
 class Schema {
  public:
@@ -99,7 +99,7 @@ class Schema {
     } else if constexpr (std::is_integral_v<M>) {
       spec.type = ParamType::integer;
       spec.fallback = static_cast<std::int64_t>(defaults.*member);
-      // What the member cannot hold is out of range, declared or not.
+      // Values that the member cannot hold are out of range, even without a declared bound.
       if (std::is_unsigned_v<M> && !spec.min) spec.min = 0;
       if (sizeof(M) < sizeof(std::int64_t) && !spec.max) spec.max = static_cast<double>(std::numeric_limits<M>::max());
       if (sizeof(M) < sizeof(std::int64_t) && !spec.min) spec.min = static_cast<double>(std::numeric_limits<M>::min());
@@ -141,7 +141,7 @@ class Schema {
   }
 
   const std::vector<ParamSpec>& specs() const { return specs_; }
-  /// `values` must be complete (see dismantle::complete). Plugins that they name are made by `make`.
+  /// `values` must be complete (see dismantle::complete). `make` creates the plugins that they name.
   T bind(const ParamSet& values, const PluginMaker& make = {}) const {
     T t{};
     for (const auto& set : setters_) set(t, values, make);

@@ -28,14 +28,15 @@ struct Budget {
 
 class PathChecker;
 
-/// A path that a PathChecker accepted. Nothing else makes one, so a search cannot report success with a refused path.
+/// A path that a PathChecker accepted. Only a checker creates one, so a search cannot report success with a refused
+/// path.
 class DISMANTLE_API VerifiedPath {
  public:
-  /// The motion in the form that is written to the plan. It may have fewer or more instants than what was shown.
+  /// The motion in the form that is written to the plan. It may have fewer or more instants than the checked path.
   const Path& poses() const { return poses_; }
   /// Certified upper bound over the whole path of the penetration above the initial overlap; assembly units.
   double max_penetration() const { return max_penetration_; }
-  /// Where a Goal names parts: the one of them that is apart from all others at the end.
+  /// If the Goal names parts: the one that is separated from all others at the end.
   const std::optional<PartId>& released() const { return released_; }
 
  private:
@@ -79,8 +80,8 @@ class DISMANTLE_API PathChecker {
   std::uint64_t id_;  ///< unique in the process
 };
 
-/// What an unsuccessful search has found out, for a later search that resumes from it. Opaque to all but the planner
-/// type that made it, which recognises it with dynamic_cast. Immutable; may be used from several threads.
+/// State that an unsuccessful search keeps, so that a later search can resume. Opaque except to the planner type that
+/// made it, which recognises it with dynamic_cast. Immutable; may be used from several threads.
 class DISMANTLE_API SearchState {
  public:
   virtual ~SearchState();
@@ -88,12 +89,12 @@ class DISMANTLE_API SearchState {
 
 /// When a removal is complete.
 struct Goal {
-  /// Empty: the moving parts move as one group until its convex hull is apart from that of the fixed parts. Else the
-  /// parts move independently and simultaneously until one of these (they are among the moving ones) is apart from all
+  /// Empty: the moving parts move as one group until its convex hull is apart from that of the fixed parts. Otherwise
+  /// the parts move independently and simultaneously until one of these, which must be moving parts, is apart from all
   /// others, moving and fixed (World::body_separated).
   std::vector<PartId> any_of{};
-  /// Intermediate placement, of proposed paths only (no query has it): the parts are moved and stay in their group. The
-  /// path has to be valid, and to separate nothing. Not together with any_of.
+  /// Intermediate placement, for proposed paths only (never in a query): the parts move and stay in their group. The
+  /// path must be valid, but need not separate anything. Cannot be combined with any_of.
   bool placement = false;
   bool operator==(const Goal&) const = default;
 };
@@ -106,13 +107,13 @@ struct PathQuery {
   Scene scene;
   Budget budget;
   /// Penetration above the initial overlap that the verifier tolerates (`verify.max_penetration`); assembly units, >=
-  /// 0. Planners keep a share of it in reserve, because simulators see contact at samples only.
+  /// 0. Planners keep a share of it in reserve, because simulators detect contact only at sample points.
   double tolerance;
   const PathChecker& checker;
   Goal goal{};
-  /// Null, or the state of an earlier unsuccessful search: for the same moving parts at the same poses and the same
-  /// goal, where the fixed parts were those of now and perhaps others, by a planner of the same type with the same
-  /// parameters. What was reachable then is reachable now. A planner may ignore it.
+  /// Null, or the state of an earlier unsuccessful search by a planner of the same type and parameters, with the same
+  /// moving parts at the same poses, the same goal, and at least the present fixed parts. States reachable then are
+  /// reachable now. A planner may ignore it.
   const SearchState* resume_from = nullptr;
 };
 
@@ -120,14 +121,14 @@ struct PathQuery {
 struct DISMANTLE_API SearchStats {
   std::uint64_t steps = 0;          ///< simulated time steps
   std::uint64_t state_checks = 0;   ///< states that were tested without simulating
-  std::uint64_t nodes = 0;          ///< states kept in search trees, those taken over from an earlier search included
+  std::uint64_t nodes = 0;          ///< states in search trees, including those taken over from an earlier search
   std::uint64_t refused = 0;        ///< paths that the checker refused
   std::uint64_t resumed_nodes = 0;  ///< nodes taken over from PathQuery::resume_from
   std::uint64_t spared = 0;         ///< steps and state checks saved by taking them over
-  /// Work of the search, to be compared with that of other searches: steps and state checks, or what a planner counts
-  /// in place of them where some cost far more than others. Does not depend on the machine.
+  /// Machine-independent effort, for comparing searches: steps plus state checks, or a planner's own count if some of
+  /// these cost far more than others.
   double cost = 0;
-  std::map<std::string, double> extra{};  ///< what else a planner counts, for reports; no code depends on the names
+  std::map<std::string, double> extra{};  ///< counts of a certain planner, for reports; no code depends on the names
 
   SearchStats& operator+=(const SearchStats& other);  ///< adds up, extras by name
   bool operator==(const SearchStats&) const = default;
@@ -138,7 +139,7 @@ struct DISMANTLE_API SearchStats {
 /// The answer of a path planner. Success cannot be claimed without a VerifiedPath, except for "nothing to do".
 class DISMANTLE_API PathResult {
  public:
-  /// Nothing was found yet: Outcome::crashed until something else is said.
+  /// No result yet: Outcome::crashed until an outcome is set.
   PathResult() = default;
   /// As fail().
   static PathResult failure(Outcome outcome, std::string message = {});
@@ -149,9 +150,9 @@ class DISMANTLE_API PathResult {
 
   /// `depth`: number of actions in the path.
   void solve(VerifiedPath path, unsigned depth);
-  /// There is nothing to do. `path`: both its instants are the start.
+  /// There is nothing to do. `path` holds the start pose twice.
   void start_is_goal(std::optional<VerifiedPath> path = {});
-  /// `outcome`: not a success. Keeps `message` where none is given.
+  /// `outcome` must not be a success. An empty `message` keeps the present one.
   /// @throws std::invalid_argument for `solved` and `start_is_goal`.
   void fail(Outcome outcome, std::string message = {});
 
@@ -170,16 +171,16 @@ class DISMANTLE_API PathResult {
 
 /// What a path planner type needs and can do; constant for an object.
 struct PathPlannerTraits {
-  Capabilities needs{};              ///< without these of the simulator, searches end as `unsupported`
+  Capabilities needs{};              ///< if the simulator lacks one of these, searches end as `unsupported`
   bool concurrent = false;           ///< start() may be called from several threads; one object serves them all
-  bool simultaneous_motion = false;  ///< answers queries with Goal::any_of; others are never given one
+  bool simultaneous_motion = false;  ///< answers queries with Goal::any_of; other planners never get one
   bool resumable = false;            ///< uses PathQuery::resume_from and fills PathResult::state
 };
 
-/// What a portion of a search came to.
+/// Result of one portion of a search.
 enum class SearchStatus {
   solved,     ///< a path was found, or there is nothing to do
-  paused,     ///< the portion is used up; another run() goes on
+  paused,     ///< the portion is used up; another run() continues
   exhausted,  ///< nothing is left to do within the query's budget; another run()
               ///< does nothing
   failed,     ///< cancelled, out of time, unsupported, or the start is not valid
@@ -192,11 +193,11 @@ DISMANTLE_API SearchStatus status_of(Outcome outcome);
 class DISMANTLE_API PathSearch {
  public:
   virtual ~PathSearch();
-  /// Goes on where the last call stopped. `portion.max_steps` and `portion.timeout` limit this call, 0 = no limit
-  /// beyond the query's budget, which holds for all calls together; the step that is in progress when the portion ends
-  /// is completed. `portion.max_depth` is not used: depth is limited by the query.
+  /// Continues where the last call stopped. `portion.max_steps` and `portion.timeout` limit this call; 0 = no limit
+  /// beyond the query's budget, which covers all calls together. A step in progress at the end of the portion is
+  /// completed. `portion.max_depth` is not used: the query limits the depth.
   virtual SearchStatus run(const Budget& portion) = 0;
-  /// How the search ended, or would end if it were given up now.
+  /// Result of the search, or the result if it were abandoned now.
   virtual PathResult result() = 0;
 };
 
@@ -216,12 +217,12 @@ DISMANTLE_API PathResult run_to_end(PathSearch& search);
 /// Starts a search and runs it until it is over.
 DISMANTLE_API PathResult plan_path(PathPlanner& planner, const PathQuery& query, RunContext& context);
 
-/// Base of planners that are one function. In portions: a call that ends with `timeout` only because of its portion is
-/// repeated from the beginning by the next run(), with its larger portion.
+/// Base of planners that consist of one function. It keeps no state between portions: if plan() ends with `timeout`
+/// only because of the portion, the next run() repeats it from the beginning, with its own, larger portion.
 class DISMANTLE_API FunctionPathPlanner : public PathPlanner {
  public:
   std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) final;
-  /// Keeps to query.budget.
+  /// Must respect query.budget.
   virtual PathResult plan(const PathQuery& query, RunContext& context) = 0;
 };
 

@@ -1,4 +1,4 @@
-/// The plan: what is written, read, verified and shown. Field by field the JSON of docs/plan-format.md.
+/// The plan that is written, read, verified and shown. Its fields are those of the JSON in docs/plan-format.md.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,30 +24,29 @@ struct PlanMove {
   std::vector<Pose> poses;  ///< >= 2; all moves of a step have the same number
 };
 
-/// What a forced step cuts into: the pair that is worst off above what it overlaps when assembled.
+/// The deepest cut of a forced step: the pair with the largest penetration above its assembled overlap.
 struct PlanForced {
   std::string part, other;                       ///< `part` moves
   double depth = 0;                              ///< deepest along the whole path, input units
-  double assembled = 0;                          ///< what the pair overlaps when assembled, input units
+  double assembled = 0;                          ///< overlap of the pair when assembled, input units
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< where, input units, world
   std::string reason;                            ///< why no verified path is known
   std::optional<std::size_t> certificate{};      ///< index into Plan::certificates: proof that there is none
-  bool lower_bound = false;  ///< the time was up before `depth` was measured to its end: it is at least that
+  bool lower_bound = false;                      ///< time ran out while measuring: the true depth is at least `depth`
 };
 
-/// A pair of parts that a step moves relative to each other and that overlaps when assembled, by so much that one
-/// should know of it.
+/// A pair of parts that a step moves relative to each other and whose assembled overlap is large enough to report.
 struct PlanStepOverlap {
-  std::string part, other;  ///< `part` moves
-  double assembled = 0;     ///< depth when assembled, input units
-  double allowed = 0;       ///< depth that the step may have by rule (b), without its tolerance; input units
-  double depth = 0;         ///< the deepest along the step, input units, measured
-  std::optional<Eigen::Vector3d> at{};  ///< there, input units, world
-  /// Where alone they may be so deep, in the frame of either part; input units, assembled.
+  std::string part, other;              ///< `part` moves
+  double assembled = 0;                 ///< depth when assembled, input units
+  double allowed = 0;                   ///< depth that rule (b) allows, without the tolerance; input units
+  double depth = 0;                     ///< the deepest along the step, input units, measured
+  std::optional<Eigen::Vector3d> at{};  ///< point of that depth; input units, world
+  /// The only region where they may be so deep, in the frame of either part; input units, assembled.
   std::optional<Aabb> region{};
 };
 
-/// One step: parts that move, and what that separates.
+/// One step: the parts that move and the parts that this separates.
 struct PlanStep {
   unsigned step = 0;  ///< from 1
   std::vector<PlanMove> moves;
@@ -57,15 +56,15 @@ struct PlanStep {
   std::string planner;
   unsigned depth = 0;
   std::vector<std::string> contacts;  ///< parts touched along the path
-  /// Assembly steps: index of the pose at which the way from the layout ends and the disassembly path backwards begins.
-  /// 0 = there is no such way, the step begins where the disassembly ended.
+  /// Assembly steps: index of the pose at which the transfer from the layout ends and the reversed disassembly path
+  /// begins. 0 = no transfer; the step begins where the disassembly ended.
   std::size_t transfer = 0;
-  /// Disassembly steps: those that this one needs to have been done, by number, without those that follow from others.
+  /// Disassembly steps: numbers of the steps that must precede this one, without those implied by others.
   std::vector<unsigned> after;
   /// Disassembly steps: 1 + the largest layer of `after`, or 1. Steps of one layer need not wait for each other.
   unsigned layer = 0;
-  /// Set: no verified motion was found, and the parts are taken out where they cut in least. Such a step is not valid
-  /// by rule (b), and `max_penetration` says nothing.
+  /// Set if no verified motion was found and the parts are removed where they cut in least. Such a step is not valid by
+  /// rule (b), and `max_penetration` has no meaning.
   std::optional<PlanForced> forced{};
   std::vector<PlanStepOverlap> overlaps{};  ///< disassembly steps
 };
@@ -85,17 +84,17 @@ struct PlanUnsolved {
   std::string message;
   std::optional<std::size_t> certificate{};  ///< index into Plan::certificates
   std::string planner{};                     ///< id of the path planner that searched; empty: no search was made
-  unsigned attempts = 0;                     ///< searches in which the part was to leave, alone or with others
+  unsigned attempts = 0;                     ///< searches for removing the part, alone or with others
   double seconds = 0;                        ///< of these, together
   unsigned depth = 0;                        ///< the largest depth that was allowed; 0: none of them had a limit
   std::vector<PlanPlace> places{};  ///< what the part touches at `best_pose`: the deepest contact with each other part
 };
 
-/// A Certificate with names in place of ids. Poses act on input coordinates, in input units; numbers as in Certificate.
+/// A Certificate with names instead of ids. Poses act on input coordinates, in input units; numbers as in Certificate.
 struct PlanCertificate {
   std::string kind;
   std::vector<std::string> parts;
-  std::vector<Pose> poses;  ///< by place in `parts`; empty: as assembled
+  std::vector<Pose> poses;  ///< in the order of `parts`; empty: as assembled
   bool full_tolerance = false;
   double margin = 0;  ///< assembly units
   std::map<std::string, std::vector<double>> numbers;
@@ -108,17 +107,17 @@ struct PlanPart {
   std::string name;
   std::string file;
   std::optional<Rgba> colour{};        ///< opaque
-  std::vector<std::string> parents{};  ///< assemblies of its file that it is in, outermost first
+  std::vector<std::string> parents{};  ///< assemblies in its file that contain it, outermost first
   std::optional<Flexible> flexible{};  ///< none: rigid
 };
 
-/// Two parts that are in each other when assembled.
+/// Two parts that overlap when assembled.
 struct PlanOverlap {
   std::string a, b;
   double depth = 0;                     ///< assembly units
   std::optional<OverlapPlace> place{};  ///< input units; none: the file does not say
-  std::optional<double> declared{};     ///< depth that is allowed this pair, whatever it overlaps; assembly units
-  bool flexible = false;                ///< `declared` is no word of the user: one of the two is recognised as flexible
+  std::optional<double> declared{};     ///< depth allowed for this pair, whatever its overlap; assembly units
+  bool flexible = false;                ///< the user did not set `declared`: one of the two is recognised as flexible
 };
 
 /// The assembly that a plan is for, as the plan file states it.
@@ -144,9 +143,9 @@ enum class PlanStatus {
 
 /// What `assembly_steps` are.
 enum class AssemblyStatus {
-  complete,  ///< each step that there is in the disassembly, from the layout on
+  complete,  ///< all steps of the disassembly, reversed, from the layout on
   partial,   ///< some parts have no path from the layout; `assembly_message` names them
-  reversed,  ///< the disassembly backwards and nothing more: no layout was asked for
+  reversed,  ///< only the reversed disassembly: no layout was requested
 };
 
 /// How an assembly comes apart and is put together: what plan.json holds (docs/plan-format.md).

@@ -1,4 +1,4 @@
-/// A plugin that another plugin's parameter names: the host binds it, the holder makes objects of it.
+/// Reference to a plugin that another plugin's parameter names. The host binds it; its holder creates objects.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,8 @@
 
 namespace dismantle {
 
-/// Makes an object of the type that a choice names, and returns a pointer to the interface of that kind. Given by the
-/// host. Throws PluginError where it cannot. May be called from any thread.
+/// Creates an object of the chosen type and returns a pointer to the interface of that kind. Provided by the host.
+/// Throws PluginError on failure. May be called from any thread.
 using PluginMaker = std::function<std::shared_ptr<void>(PluginKind, const PluginChoice&)>;
 
 /// Member of a parameter struct: `PluginRef<PathPlanner> inner{"bfs"};`. Lists: ParamTraits and Schema::add.
@@ -34,7 +34,7 @@ class PluginRef {
   const std::string& type() const { return choice_.type; }
   const PluginChoice& choice() const { return choice_; }
 
-  /// A new object, each time. @throws PluginError from the host; std::logic_error when no host has bound this.
+  /// Creates a new object. @throws PluginError from the host; std::logic_error when no host has bound this.
   std::shared_ptr<Interface> create() const {
     if (!make_) throw std::logic_error("plugin '" + choice_.type + "' was named, but not bound by a host");
     return std::static_pointer_cast<Interface>(make_(kind, choice_));

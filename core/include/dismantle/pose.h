@@ -7,7 +7,7 @@
 
 namespace dismantle {
 
-/// x' = q x + t: takes a point of a part, where it is when assembled, to where it is now.
+/// x' = q x + t: maps a point of a part from its assembled to its current position.
 /// q is a unit quaternion; the identity is the assembled pose.
 struct Pose {
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
@@ -20,7 +20,7 @@ struct Pose {
     const Eigen::Quaterniond i = q.conjugate();
     return {-(i * t), i};
   }
-  /// To the last bit; q and -q differ.
+  /// Exact; q and -q differ.
   bool operator==(const Pose& b) const { return t == b.t && q.coeffs() == b.q.coeffs(); }
   bool is_identity(double tolerance = 0.0) const {
     return t.cwiseAbs().maxCoeff() <= tolerance && q.vec().cwiseAbs().maxCoeff() <= tolerance;
@@ -39,8 +39,8 @@ DISMANTLE_API Eigen::Quaterniond rotation_from_vector(const Eigen::Vector3d& w);
 /// This is the motion that docs/plan-format.md prescribes between two poses of a plan.
 DISMANTLE_API Pose screw_interpolate(const Pose& a, const Pose& b, double u);
 
-/// Upper bound of the distance travelled by any point within `radius` of `center` (a point of the
-/// part, assembled frame) travels on the screw motion from a to b.
+/// Upper bound of the distance that any point within `radius` of `center` (a point of the part, assembled frame)
+/// travels on the screw motion from a to b.
 DISMANTLE_API double screw_travel(const Pose& a, const Pose& b, const Eigen::Vector3d& center, double radius);
 
 }  // namespace dismantle

@@ -7,8 +7,8 @@
 
 namespace dismantle {
 
-/// May `named` be read because `file`, which may come from anywhere, names it? Only a regular file in the folder of
-/// `file` or below it, once `..` and links are followed: models that were sent to somebody read nothing else of theirs.
+/// May `named` be read because the untrusted `file` refers to it? Only if it is a regular file in the folder of `file`
+/// or below, after `..` and links are resolved: a model from elsewhere must not read other files of the user.
 inline bool may_read_referenced(const std::filesystem::path& named, const std::filesystem::path& file) {
   std::error_code problem;
   if (!std::filesystem::is_regular_file(named, problem)) return false;  // pipes and devices would hang

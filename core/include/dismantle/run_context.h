@@ -1,4 +1,4 @@
-/// What a run hands down to everything that works for it: time, cancellation, randomness, progress, log.
+/// Context that a run passes to all of its work: time, cancellation, randomness, progress, log.
 #pragma once
 
 #include <atomic>
@@ -16,7 +16,7 @@ namespace dismantle {
 /// Point in time after which work should stop; default: never.
 class DISMANTLE_API Deadline {
  public:
-  /// Never goes back.
+  /// Monotonic.
   using Clock = std::chrono::steady_clock;
   Deadline() = default;
   static Deadline after_seconds(double s);
@@ -48,7 +48,7 @@ class DISMANTLE_API Rng {
   double uniform(double lo, double hi);  ///< [lo, hi)
   std::uint64_t below(std::uint64_t n);  ///< [0, n), n > 0, unbiased
   double normal();                       ///< mean 0, variance 1
-  /// Independent generator for a named purpose: does not depend on what was drawn from this one before.
+  /// Independent generator for one purpose; does not depend on earlier draws from this one.
   Rng fork(std::uint64_t stream) const;
 
  private:
@@ -66,7 +66,7 @@ struct ProgressEvent {
   std::string_view phase;
   std::size_t done = 0;
   std::size_t total = 0;
-  std::string_view detail;  ///< for instance the part in hand
+  std::string_view detail;  ///< for example the current part
 };
 
 /// Handed down by value; copies share the sinks and the cancellation flag.
@@ -76,7 +76,7 @@ struct RunContext {
   Rng rng{1};
   unsigned threads = 1;                ///< >= 1, to divide or prefetch work for; results never depend on it
   std::shared_ptr<Executor> executor;  ///< its idle threads may help, whatever `threads` is; may be null
-  bool speculative = false;  ///< the result may turn out not to be needed: long work calls pause_point() now and then
+  bool speculative = false;            ///< the result may not be needed: long work calls pause_point() regularly
   std::function<void(const ProgressEvent&)> on_progress;   ///< may be empty; called from one thread at a time
   std::function<void(LogLevel, std::string_view)> on_log;  ///< may be empty; called from several threads
 

@@ -10,10 +10,10 @@
 
 namespace dismantle {
 
-/// One step, by the goal of its attempt: a group of parts leaves the group that it was in; or it is moved and stays in
-/// it (Goal::placement); or one part leaves (AttemptResult::out), and the others that moved stay (Goal::any_of).
+/// One step. The goal of its attempt says what happens: the parts leave their group; or they move and stay in it
+/// (Goal::placement); or one part leaves (AttemptResult::out) and the other moved parts stay (Goal::any_of).
 struct Removal {
-  std::vector<PartId> parts;  ///< that moved, ascending, as Path columns
+  std::vector<PartId> parts;  ///< parts that moved, ascending, as Path columns
   const AttemptResult* attempt = nullptr;
 };
 
@@ -27,14 +27,14 @@ struct Unsolved {
   const Certificate* certificate = nullptr;  ///< of the oracle: proof that it cannot leave
 };
 
-/// What a sequence planner gave.
+/// Result of a sequence planner.
 struct SequenceResult {
-  /// solved: every group is down to one part, or to what the constraints keep together, or the target is out.
+  /// solved: every group is one part or is kept together by constraints, or the target is out.
   Outcome outcome = Outcome::crashed;
   std::vector<Removal> removals;         ///< in order
   std::vector<PartId> remaining;         ///< parts never removed (one when solved)
   std::vector<Unsolved> unsolved;        ///< why the others are still there; empty when solved
-  std::map<std::string, double> counts;  ///< documented names of what the planner did itself
+  std::map<std::string, double> counts;  ///< the planner's own counts, by documented names
 };
 
 /// Receives each removal when it is found, so that an interruption loses nothing.
@@ -44,7 +44,7 @@ class DISMANTLE_API SequenceObserver {
   virtual void removed(const Removal& removal, std::size_t parts_left) = 0;
 };
 
-/// Sees no planner and no simulator, so that any pair composes. Same oracle and seed, same result.
+/// Sees no path planner and no simulator, so that it composes with any. Same oracle and seed give the same result.
 class DISMANTLE_API SequencePlanner {
  public:
   virtual ~SequencePlanner();

@@ -1,4 +1,4 @@
-/// Objects that several plugins use together, such as a cache of what they compute from the same meshes.
+/// Objects shared by several plugins, such as a cache of data computed from the same meshes.
 #pragma once
 
 #include <functional>

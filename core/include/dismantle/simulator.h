@@ -1,7 +1,7 @@
 /// Physics or geometry backends.
 ///
-/// Frames and units: assembly units, seconds, radians; world frame = assembled frame of the assembly.
-/// A part's pose takes its assembled points to where they are (geometry/pose.h).
+/// Frames and units: assembly units, seconds, radians; world frame = assembled frame of the assembly. A part's pose
+/// maps its assembled points to their current positions (pose.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@ enum class MotionSpace {
   rigid,        ///< SE(3)
 };
 
-/// Facts about a simulator that can be asked before anything is prepared.
+/// Facts about a simulator that can be queried before preparation.
 struct Capabilities {
   bool dynamics = false;    ///< World::advance works
   bool contacts = false;    ///< World::contacts works
@@ -87,7 +87,7 @@ struct StepReport {
   std::uint64_t steps = 0;  ///< time steps simulated
   double travel = 0;        ///< largest displacement of any point of a moving part, from begin to end pose
   bool stalled = false;     ///< stopped early: nothing moves any more under this action
-  bool finite = true;       ///< false: the state blew up and was put back to where it began
+  bool finite = true;       ///< false: the state diverged and was reset to the start
 };
 
 /// One scene: some parts move, others stay fixed. One world per thread; may be reused for many states.
@@ -114,28 +114,29 @@ class DISMANTLE_API World {
   virtual StepReport advance(State& state, const Action& action, double duration, Trace* trace = nullptr) = 0;
   /// Deepest penetration >= 0 of any pair above what was there when assembled.
   virtual double penetration(const State& state) = 0;
-  /// Moves the bodies, by as little as it takes, so that they keep `clearance` (assembly units, small) from what they
-  /// would touch, or half of what room there is. A world that cannot leaves the state as it is.
+  /// Moves the bodies, by as little as it takes, so that they keep `clearance` (assembly units, small) from other
+  /// parts, or half of the gap where it is narrow. A world without this ability leaves the state unchanged.
   virtual void project_to_clearance(State& state, double clearance) { (void)state, (void)clearance; }
   /// Replaces the content of `out`.
   virtual void contacts(const State& state, std::vector<Contact>& out) = 0;
-  /// True when the hulls of all moving parts together are apart from the hull of all fixed parts
-  /// (section 3). True when nothing stay fixed.
+  /// True when the hulls of all moving parts together are apart from the hull of all fixed parts (section 3). True when
+  /// nothing is fixed.
   virtual bool separated(const State& state) = 0;
-  /// True when the hull of moving part `body` alone is apart from the hull of all others, moving and fixed. Worlds in
-  /// which several parts move override it; for one part it is separated(). Else throws std::logic_error.
+  /// True when the hull of moving part `body` alone is apart from the hull of all others, moving and fixed. The default
+  /// is separated() if one part moves and throws std::logic_error otherwise; worlds with several moving parts override
+  /// it.
   virtual bool body_separated(const State& state, std::size_t body);
-  /// Tells the world of a place where the verifier found it too permissive: `point` (assembled frame of
-  /// `part`) lay inside `other`. A world that samples contact adds it; others may ignore it.
+  /// Reports a point where the verifier found the world too permissive: `point` (assembled frame of `part`) lay inside
+  /// `other`. A world that samples contact adds it; others may ignore it.
   virtual void add_contact_sample(PartId part, PartId other, const Eigen::Vector3d& point) = 0;
-  /// True while the world allows the overlap that parts have when assembled only where it was. The verifier allows
-  /// that depth everywhere; a world that is stricter at first finds better paths.
+  /// True while the world allows the initial overlap of a pair only where it is when assembled. The verifier allows
+  /// that depth everywhere (unless the pair has an overlap region); a stricter world finds better paths at first.
   virtual bool overlap_is_local() const { return false; }
   /// From now on the world allows the initial overlap of a pair everywhere, as the verifier does.
   virtual void allow_overlap_everywhere() {}
 };
 
-/// What a simulator computed once for an assembly (fields, hierarchies, hulls). Immutable, shared by threads.
+/// Data that a simulator computes once for an assembly (fields, hierarchies, hulls). Immutable, shared by threads.
 class DISMANTLE_API PreparedAssembly {
  public:
   virtual ~PreparedAssembly();
@@ -146,8 +147,8 @@ class DISMANTLE_API Simulator {
  public:
   virtual ~Simulator();
   virtual Capabilities capabilities() const noexcept = 0;
-  /// `tolerance`: penetration above the initial overlap that the verifier lets pass, assembly units.
-  /// A run calls it when it first needs a world: not at all where no search is made.
+  /// `tolerance`: penetration above the initial overlap that the verifier tolerates, assembly units. A run calls this
+  /// when it first needs a world; without a search, never.
   /// @throws InputError naming the part that cannot be used.
   virtual std::shared_ptr<const PreparedAssembly> prepare(const Assembly& assembly, double tolerance,
                                                           RunContext& context) = 0;

@@ -26,19 +26,19 @@ bool contains(const std::vector<PartId>& parts, PartId id) {
 
 }  // namespace
 
-/// Who is where. Group g > 0 was made by step g - 1. "Place" of a group: its displacement from where the disassembly
-/// has it.
+/// Poses and groups of all parts over time. Step g - 1 made group g > 0. "Place" of a group: its displacement from its
+/// pose in the disassembly.
 struct Assembler::Scenery {
-  /// Where a part is, and in which group, from some number of steps of the disassembly on.
+  /// Pose and group of a part after at least `since` steps of the disassembly.
   struct Stand {
     std::size_t since = 0;
     Pose pose;
     std::size_t group = 0;
   };
   const std::vector<RecordedStep>& steps;
-  std::vector<std::vector<Stand>> stands;  ///< [part]: one, and one more for each step that moves it
+  std::vector<std::vector<Stand>> stands;  ///< [part]: the first one, and one for each step that moves the part
   std::vector<Pose> place;                 ///< [group]
-  std::vector<std::string> missing;        ///< [group]: why it does not lie in the layout; empty: it does
+  std::vector<std::string> missing;        ///< [group]: why it is not in the layout; empty: it is
 
   Scenery(const std::vector<RecordedStep>& recorded, std::size_t parts)
       : steps(recorded), stands(parts, std::vector<Stand>(1)) {
@@ -56,8 +56,8 @@ struct Assembler::Scenery {
     const auto& list = stands[part];
     return *std::prev(std::partition_point(list.begin(), list.end(), [&](const Stand& s) { return s.since <= k; }));
   }
-  /// Everything but the parts of step `i`, at the time when these are brought. Groups that lie nowhere are left out,
-  /// unless it is the one that the step adds to.
+  /// All parts but those of step `i`, at the time of their transfer. Groups that are not in the layout are left out,
+  /// except the one that the step adds to.
   std::vector<PlacedPart> others(std::size_t i) const {
     std::vector<PlacedPart> all;
     for (PartId id = 0; id < stands.size(); ++id) {
@@ -71,11 +71,11 @@ struct Assembler::Scenery {
     missing[group] = std::move(why);
     place[group] = place[steps[group - 1].from];
   }
-  /// The disassembly path of step `i` where its parts are put in, backwards.
+  /// The reversed disassembly path of step `i`, at the place of the group that its parts are inserted into.
   Path way_in(std::size_t i) const { return backwards(displaced(place[steps[i].from], *steps[i].path)); }
 };
 
-/// From the layout to where the way in begins.
+/// Transfer from the layout to where the way in begins.
 struct Assembler::Way {
   Path path;  ///< empty: there is none
   double max_penetration = 0;
@@ -105,8 +105,8 @@ Aabb Assembler::box_of(PartId part, const Pose& pose) const {
 void Assembler::place_groups(Scenery& scenery, const RunContext& context) const {
   const LayoutOptions& layout = options_.layout;
   const std::size_t n = scenery.steps.size();
-  // Room that the work at each group needs: what is there, and what is put in there. Along a screw motion between two
-  // dense poses a point leaves the box of its ends by less than a share of its way.
+  // Box that each group needs: for its parts, and for the motions of parts that are inserted into it. On a screw motion
+  // between two dense poses, a point leaves the box of its end points by less than half of its travel.
   std::vector<Aabb> rooms(n + 1);
   const double sagitta = 0.5 * normalizer_.max_travel();
   for (std::size_t p = 0; p < scenery.stands.size(); ++p)
@@ -151,7 +151,7 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
       ours.push_back(g);
     }
   auto shifts = lay_out(boxes, taken, layout.up, layout.gap);
-  // The plane is that on which the assembly stands, however far below parts leave.
+  // The plane is the one on which the assembly stands, even if parts leave below it.
   const int w = static_cast<int>(layout.up);
   for (auto& shift : shifts) shift[w] += assembled.lo[w] - rooms[0].lo[w];
   for (std::size_t k = 0; k < ours.size(); ++k)
@@ -159,13 +159,14 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
   for (const auto& remark : remarks) context.log(LogLevel::warning, remark);
 }
 
-/// What lies where another part is put in cannot lie there. Our own layout leaves room; a given one may not.
+/// Leaves groups out of the layout that are in the way of an insertion. The automatic layout leaves room; poses given
+/// by the user may not.
 void Assembler::clear_ways_in(Scenery& scenery, const RunContext& context) const {
   for (std::size_t i = 0; i < scenery.steps.size(); ++i) {
-    if (context.should_stop()) return;  // no way is looked for any more
+    if (context.should_stop()) return;  // no more transfers are searched for
     const std::size_t from = scenery.steps[i].from;
     std::vector<PlacedPart> others = scenery.others(i);
-    // Those that it passed on its way out are in order: the motion is the same.
+    // The parts that it passed on its way out need no check: the motion is the same.
     std::erase_if(others, [&](const PlacedPart& p) { return scenery.stand(i + 1, p.part).group == from; });
     const MotionCheck check = verifier_.check_motion(scenery.steps[i].parts, others, scenery.way_in(i), context);
     if (check.interrupted) return;
@@ -173,18 +174,18 @@ void Assembler::clear_ways_in(Scenery& scenery, const RunContext& context) const
     const Violation v = check.violation.value_or(Violation{});
     const PartId id = contains(scenery.steps[i].parts, v.part) ? v.other : v.part;
     const std::size_t lies = scenery.stand(i + 1, id).group;
-    const std::size_t wrong = lies > 0 ? lies : from;  // the base stays: then it is the group that is added to
+    const std::size_t wrong = lies > 0 ? lies : from;  // group 0 stays: then leave out the group that is added to
     if (!scenery.missing[wrong].empty()) continue;
     scenery.leave_out(wrong, fmt::format("in the layout '{}' lies where '{}' is put in", assembly_.parts[id].name,
                                          assembly_.parts[scenery.steps[i].parts.front()].name));
-    i = static_cast<std::size_t>(-1);  // from the beginning: what hangs on the group has moved
+    i = static_cast<std::size_t>(-1);  // restart: groups that are placed relative to it have moved
   }
 }
 
-/// The answers of the verifier for one transfer.
+/// Path checker of one transfer.
 class Assembler::Checker final : public PathChecker {
  public:
-  /// All outlive it. `context`: interrupts a check that is running.
+  /// All references must outlive it. `context` interrupts a running check.
   Checker(const Assembler& assembler, const Scene& scene, const std::vector<Pose>& goal, const RunContext& context)
       : assembler_(assembler), scene_(scene), goal_(goal), context_(context) {
     for (const PlacedPart& p : scene_.moving) moving_.push_back(p.part);
@@ -233,7 +234,7 @@ Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, Transf
   std::vector<Pose> goal;
   for (const PartId id : step.parts) {
     const Pose& out = scenery.stand(i + 1, id).pose;
-    if (!step.leaves(id)) {  // there, and waits
+    if (!step.leaves(id)) {  // already there, and waits
       scene.fixed.push_back({id, scenery.place[step.from] * out});
       continue;
     }
@@ -284,7 +285,7 @@ Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, Transf
   return none;
 }
 
-/// The ways of the steps [first, last) that have one, by several threads, with what lies where as it is now.
+/// Transfers of the steps [first, last) that need one, found by several threads with the present scenery.
 std::vector<Assembler::Way> Assembler::transfers(const Scenery& scenery, std::size_t first, std::size_t last,
                                                  const RunContext& context) {
   std::vector<Way> ways(last - first);
@@ -319,7 +320,7 @@ PlanStep Assembler::to_step(const Scenery& scenery, std::size_t i, const Way& wa
   back.seconds = way.seconds;
   back.depth = way.depth;
   back.transfer = way.path.empty() ? 0 : way.path.size() - 1;
-  // At its place in the base a step is the one of the disassembly backwards, number for number.
+  // If its group is not displaced, a step repeats the poses of the reversed disassembly exactly.
   const Path in = scenery.way_in(i);
   std::size_t column = 0;  // of the way
   for (std::size_t k = 0; k < step.parts.size(); ++k) {
@@ -351,9 +352,9 @@ AssemblyPlan Assembler::put_together(const std::vector<RecordedStep>& steps, con
   place_groups(scenery, context);
   clear_ways_in(scenery, context);
 
-  // In the order of the disassembly: where a group is put in is known before it is asked how to get there. A group that
-  // is left out lies elsewhere from then on, so what was found for later steps does not count.
-  // Several per thread, so that one long search does not leave the others without work.
+  // In the order of the disassembly, so that the goal of a transfer is known before its search. A group that is left
+  // out has another place from then on, so transfers found for later steps are discarded. A wave holds several steps
+  // per thread, so that one long search does not leave other threads idle.
   const std::size_t wave = context.threads > 1 ? 16 * context.threads : 1;
   for (std::size_t first = 0; first < steps.size();) {
     std::vector<Way> ways = transfers(scenery, first, std::min(first + wave, steps.size()), context);

@@ -1,5 +1,5 @@
-/// Algorithm 3: assembly by disassembly. From a layout of the parts, with ways from there to where the disassembly
-/// left them, to the assembled state.
+/// Algorithm 3: assembly by disassembly. Takes the parts from a layout to their disassembled poses by transfers, and
+/// from there to the assembled state by the reversed disassembly.
 #pragma once
 
 #include <string>
@@ -18,19 +18,19 @@ struct AssemblyPlan {
   std::string message;
 };
 
-/// Each step of the disassembly makes a group, and each group has a place in the layout: a displacement from where the
-/// disassembly left it. A group that is taken apart by later steps is put together at its place, and then moves in as
-/// a whole. What was shifted part-way is shifted back where it is. So at every time each part is at one known place,
-/// and what moves is verified against all others.
+/// Each step of the disassembly makes a group, and each group has a place in the layout: a displacement from its
+/// disassembled pose. A group that later steps take apart is assembled at its place, and then moves in as a whole.
+/// Intermediate placements are undone in place. So each part has one known pose at any time, and each motion is
+/// verified against all other parts.
 ///
-/// A group for which there is no way is left out of the layout: its step begins where the disassembly left it.
+/// A group without a transfer is left out of the layout: its step begins where the disassembly ended.
 class Assembler {
  public:
   /// All references must outlive the assembler.
   Assembler(const Assembly& assembly, const DeferredSimulator& simulator, const PlanningSetup& setup,
             const RunOptions& options, const Verifier& verifier);
 
-  /// `written` are the same steps as the plan has them.
+  /// `written`: the same steps in the form of the plan.
   AssemblyPlan put_together(const std::vector<RecordedStep>& steps, const std::vector<PlanStep>& written,
                             const RunContext& context);
 

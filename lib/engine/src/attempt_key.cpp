@@ -11,7 +11,7 @@ namespace dismantle {
 
 namespace {
 
-/// True when q has to be negated to be the one of {q, -q} whose first non-zero coefficient (w, x, y, z) is positive.
+/// True if q must be negated to make its first non-zero coefficient (w, x, y, z) positive.
 bool has_wrong_sign(const Eigen::Quaterniond& q) {
   for (const double c : {q.w(), q.x(), q.y(), q.z()})
     if (c != 0) return c < 0;

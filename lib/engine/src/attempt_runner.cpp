@@ -20,7 +20,7 @@ bool holds(const std::vector<PlacedPart>& group, PartId part) {
   return std::any_of(group.begin(), group.end(), [part](const PlacedPart& p) { return p.part == part; });
 }
 
-/// What a plugin says about parts and poses is kept only as far as it makes sense.
+/// Drops invalid parts and poses from the result of a plugin.
 void drop_nonsense(PathResult& result, const Attempt& attempt) {
   std::vector<PartId> blockers;
   for (const PartId id : result.blocked_by) {
@@ -37,10 +37,10 @@ void drop_nonsense(PathResult& result, const Attempt& attempt) {
 
 }  // namespace
 
-/// The answers of the verifier for one attempt.
+/// Path checker of one attempt.
 class AttemptRunner::Checker final : public PathChecker {
  public:
-  /// All outlive it. `context`: interrupts a check that is running.
+  /// All references must outlive it. `context` interrupts a running check.
   Checker(const AttemptRunner& runner, const Attempt& attempt, const RunContext& context)
       : runner_(runner), attempt_(attempt), context_(context) {}
 
@@ -70,7 +70,7 @@ class AttemptRunner::Checker final : public PathChecker {
     return answer;
   }
 
-  /// No motion at all, where the attempt is over before it begins; nothing where it is not.
+  /// The path without motion, if the goal is reached at the start; otherwise empty.
   std::optional<VerifiedPath> rest() const {
     const std::optional<PartId> released = runner_.first_out(attempt_, attempt_.moving);
     const bool is_apart = attempt_.goal.any_of.empty()
@@ -115,8 +115,8 @@ std::string AttemptRunner::lacking(const Capabilities& needs, std::size_t moving
                      fmt::join(missing, ", "));
 }
 
-/// The first of those that are leaving whose hull is apart from that of all others, the moving ones where `group` has
-/// them.
+/// The first part of Goal::any_of whose hull is apart from that of all others; moving parts are at the poses of
+/// `group`.
 std::optional<PartId> AttemptRunner::first_out(const Attempt& attempt, const std::vector<PlacedPart>& group) const {
   for (const PartId id : attempt.goal.any_of) {
     std::vector<PlacedPart> alone, others = attempt.fixed;
@@ -132,7 +132,7 @@ void AttemptRunner::explain(const MotionCheck& motion, const NormalizedPath& wri
       motion.interrupted ? "the run was stopped before the path was verified" : "the path cuts into another part";
   if (!motion.violation) return;
   const Violation& v = *motion.violation;
-  const double scale = assembly_.normalization.scale;  // people read input units
+  const double scale = assembly_.normalization.scale;  // messages use input units
   answer.has_witness = true;
   answer.part = v.part;
   answer.other = v.other;
@@ -214,7 +214,7 @@ PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, con
   return run_to_end(*search);
 }
 
-/// Can worlds be made? If not, says why.
+/// Prepares the parts, so that worlds can be made; on failure fills `result`.
 bool AttemptRunner::is_prepared(const RunContext& context, PathResult& result) const {
   try {
     if (deferred_ == nullptr || deferred_->ready(context)) return true;
@@ -233,7 +233,7 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
   AttemptResult& answer = computed.answer;
   PathResult& result = answer.result;
   const bool nothing_left = attempt.fixed.empty() && attempt.goal.any_of.empty();
-  if (!nothing_left && !is_prepared(context, result)) {  // which is not the attempt's time
+  if (!nothing_left && !is_prepared(context, result)) {  // not counted as time of the attempt
     computed.interrupted = context.should_stop();
     return computed;
   }
@@ -243,7 +243,7 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
   if (path_timeout_ > 0) own.deadline = context.deadline.earlier(Deadline::after_seconds(path_timeout_));
   // A path that was found shortly before this deadline is still verified: only the end of the run interrupts a check.
   const Checker checker(*this, attempt, context);
-  bool false_claim = false;  // of a success: the planner's fault, however late it comes
+  bool false_claim = false;  // of a success: the planner's fault, even after the deadline
   try {
     if (nothing_left) {
       result.start_is_goal();  // nothing left to be apart from
@@ -289,7 +289,7 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
       result.fail(cancelled ? Outcome::cancelled : Outcome::timeout,
                   cancelled ? "cancelled" : "the time limit of the whole run passed during the attempt");
     } else if (result.outcome() == Outcome::cancelled) {
-      if (own.deadline.passed()) {  // planners stop for both reasons at the same place
+      if (own.deadline.passed()) {  // planners report both reasons alike
         result.fail(Outcome::timeout);
       } else {
         result.fail(Outcome::crashed,

@@ -15,9 +15,9 @@
 
 namespace dismantle {
 
-/// Asked when a search has spent this number of steps and state checks: a proof that would settle it. Null: it goes on.
+/// A proof to try once a search has spent this number of steps and state checks. Null: the search continues.
 struct SearchPause {
-  std::uint64_t steps = 0;  ///< > 0, more than those of the pause before
+  std::uint64_t steps = 0;  ///< > 0, more than at the previous pause
   std::function<const Certificate*()> proof;
 };
 
@@ -29,20 +29,20 @@ struct ComputedAttempt {
 /// Immutable after construction; run() may be called from several threads, with one planner each.
 class AttemptRunner {
  public:
-  /// All references must outlive the runner. `deferred`: null, or what prepares the parts before the first search.
-  /// `rng` is the run's generator.
+  /// All references must outlive the runner. `deferred` (may be null) prepares the parts before the first search. `rng`
+  /// is the run's generator.
   AttemptRunner(const Assembly& assembly, const PreparedAssembly& prepared, const PlanningSetup& setup,
                 const DeferredSimulator* deferred, const RunOptions& options, const Verifier& verifier,
                 const Rng& rng);
 
   /// `attempt` is canonical and `key` belongs to it. The deadline of `context` is that of the run; the time limit of
-  /// the attempt is added here. `resumed`: null, or the answer of the search that this one resumes. A proof of
-  /// `pauses` ends the search, and is in the answer; its time is not the search's. Throws nothing: what a plugin throws
-  /// becomes Outcome::crashed.
+  /// the attempt is added here. `resumed`: null, or the answer of the search that this one resumes. A proof found in
+  /// `pauses` ends the search and is part of the answer; its time is not counted as search time. Does not throw:
+  /// exceptions of plugins become Outcome::crashed.
   ComputedAttempt run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key, const AttemptResult* resumed,
                       const std::vector<SearchPause>& pauses, const RunContext& context) const;
 
-  /// Verifies a way in place of a search. `attempt` and the columns of `way` in the same order.
+  /// Verifies a given path instead of searching. The columns of `way` are in the order of `attempt.moving`.
   ComputedAttempt check_proposal(const Attempt& attempt, const Path& way, const RunContext& context) const;
 
   const std::string& planner_id() const { return planner_id_; }

@@ -20,7 +20,7 @@ DeferredSimulator::DeferredSimulator(Simulator& simulator, const Assembly& assem
 DeferredSimulator::Prepared DeferredSimulator::prepare_now(const RunContext& asking) const {
   RunContext own = context_;
   own.on_progress = asking.on_progress;
-  // Searches before a forced step are asked for when the time of all others is over.
+  // Searches of forced steps begin after the deadline of all other searches.
   if (asking.deadline.seconds_left() > own.deadline.seconds_left()) own.deadline = asking.deadline;
   Prepared prepared;
   try {
@@ -41,7 +41,7 @@ DeferredSimulator::Prepared DeferredSimulator::prepare_now(const RunContext& ask
 bool DeferredSimulator::ready(const RunContext& asking) const {
   rethrow_failure();
   const Prepared* prepared = prepared_.get(asking, [&]() -> std::optional<Prepared> {
-    rethrow_failure();  // of the thread that this one has waited for
+    rethrow_failure();  // failure of the thread that this one waited for
     const auto begin = std::chrono::steady_clock::now();
     try {
       Prepared made = prepare_now(asking);

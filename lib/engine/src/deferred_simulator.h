@@ -12,22 +12,22 @@
 
 namespace dismantle {
 
-/// A simulator for one assembly. Fields and hierarchies of all parts are a large part of the effort on assemblies that
-/// come apart in straight lines, which need no search and no world.
+/// A simulator for one assembly that prepares on demand. Assemblies that come apart along straight lines need no search
+/// and no world; preparing fields and hierarchies would be a large part of their run time.
 class DeferredSimulator final : public Simulator {
  public:
-  /// All outlive it. `context`: of the run; preparing uses its threads, and ends when it is cancelled, or when both
-  /// its deadline and that of who asks have passed.
+  /// All references must outlive it. `context` is that of the run: preparing uses its threads, and stops on its
+  /// cancellation, or when both its deadline and that of the asking context have passed.
   DeferredSimulator(Simulator& simulator, const Assembly& assembly, double tolerance, const RunContext& context);
 
-  /// Prepares the parts, unless that was done. `asking` shows the progress. False: the run was stopped meanwhile.
-  /// @throws Error, always the same, when the simulator cannot prepare them.
+  /// Prepares the parts, unless that was done. `asking` receives the progress. False: the run was stopped meanwhile.
+  /// @throws Error, the same on every call, if the simulator cannot prepare them.
   bool ready(const RunContext& asking) const;
   /// @throws Error when ready() did.
   void rethrow_failure() const;
   /// Was the run stopped while the parts were prepared?
   bool was_stopped() const { return stopped_; }
-  /// Seconds that preparing has taken.
+  /// Seconds that preparing took.
   double seconds() const { return seconds_; }
 
   Capabilities capabilities() const noexcept override { return simulator_.capabilities(); }

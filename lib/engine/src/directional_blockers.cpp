@@ -114,7 +114,7 @@ double DirectionalBlockers::Along::length(const Placed& unit) const {
   Row& row = all_.rows_[row_];
   double ahead = among(unit, front_) ? second_ : furthest_, behind = -std::numeric_limits<double>::infinity();
   for (const PlacedPart& p : unit) behind = std::max(behind, all_.measured(row, p).behind);
-  if (unit.size() > 1 && among(unit, front_)) {  // the second may move along, too
+  if (unit.size() > 1 && among(unit, front_)) {  // the second one may be in the unit, too
     ahead = -std::numeric_limits<double>::infinity();
     for (const PlacedPart& p : *all_.group_)
       if (!among(unit, p.part)) ahead = std::max(ahead, all_.measured(row, p).ahead);

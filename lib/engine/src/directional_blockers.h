@@ -12,19 +12,19 @@
 
 namespace dismantle {
 
-/// Equal for unit vectors that are the same but for rounding.
+/// Equal for unit vectors that differ only by rounding.
 std::array<int, 3> rounded_direction(const Eigen::Vector3d& direction);
 
-/// Could a box that moves along `along`, as far as it takes, ever meet another?
+/// Can box `moving` meet box `fixed` at any distance along `along`?
 bool may_meet(const Aabb& moving, const Aabb& fixed, const Eigen::Vector3d& along);
 
 /// Caches, for each part and direction, the few parts that block it (one direction of a directional blocking graph;
-/// Wilson 1992), with how much of each is in the way. The lists of the others stay valid when a part leaves the group,
-/// so choosing the next of n parts costs O(n) once the lists are made. Lists of parts that have moved are made again.
+/// Wilson 1992), and how much of each is in the way. When a part leaves the group, the lists of the others stay valid,
+/// so choosing the next of n parts costs O(n) once the lists are made. Lists of moved parts are made again.
 class DirectionalBlockers {
  public:
   using Placed = std::vector<PlacedPart>;
-  /// Of a direction: how far the hull of a part reaches along it.
+  /// How far the hull of a part reaches along a direction.
   using Reach = std::function<double(const PlacedPart& part, const Eigen::Vector3d& along)>;
   /// How much of `fixed` is in the way of `moving`, >= 0. Asked of pairs whose boxes may meet.
   using Thickness =
@@ -33,15 +33,15 @@ class DirectionalBlockers {
   /// `boxes`: of all parts of the assembly, in their own frames.
   DirectionalBlockers(std::vector<Aabb> boxes, Reach reach, Thickness thickness);
 
-  /// The group that is asked about next; it must outlive the questions.
+  /// Sets the group of the following queries; it must outlive them.
   void set_group(const Placed& group);
 
-  /// The group along one direction.
+  /// Queries about the group along one direction.
   class Along {
    public:
     /// How much the rest of the group is in the way of the unit, summed over pairs of parts.
     double thickness(const Placed& unit) const;
-    /// How far it goes until a plane across the direction is between the two.
+    /// How far the unit must move until a plane perpendicular to the direction separates it from the rest.
     double length(const Placed& unit) const;
 
    private:

@@ -10,23 +10,23 @@
 
 namespace dismantle {
 
-/// Without a deadline nothing is limited. With one, the time that quick steps for all that is left would take is kept,
-/// as it was measured so far; each step gets its share of the rest, and what it does not use is left to those after it.
+/// Without a deadline nothing is limited. With one, the time for quick steps of all remaining parts is reserved,
+/// estimated from the slowest quick step so far. Each step gets a share of the rest; unused time is left to later
+/// steps.
 class ForceBudget {
  public:
   ForceBudget(const Deadline& whole, const ForceOptions& options) : whole_(whole), options_(options) {}
 
   bool limited() const { return std::isfinite(whole_.seconds_left()); }
-  /// For quick steps, by which all parts get out: somewhat beyond the deadline. Parts for which that is not enough
-  /// stay.
+  /// For quick steps that remove all remaining parts: `overtime` beyond the deadline. Parts that need longer stay.
   Deadline for_all() const {
     return limited() ? Deadline::after_seconds(options_.overtime + whole_.seconds_left()) : whole_;
   }
   /// Reports how long a quick step took.
   void took(double seconds) { quick_ = std::max(quick_, seconds); }
-  /// For finding the motion of a step that cuts in least; `left` (> 0): steps that are left, this one included.
+  /// For finding the motion that cuts in least; `left` (> 0): number of remaining steps, this one included.
   Deadline for_measuring(std::size_t left) const { return within(1.0 / static_cast<double>(left), left); }
-  /// For verified steps before or after it.
+  /// For verified steps and proofs between forced steps.
   Deadline for_planning(std::size_t left) const {
     return within(std::max(options_.verified_share, 1.0 / static_cast<double>(left + 1)), left);
   }

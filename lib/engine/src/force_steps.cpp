@@ -20,7 +20,7 @@ namespace dismantle {
 
 namespace {
 
-/// Passes removals of a group on as removals of the whole.
+/// Passes removals from a group on as removals from the whole assembly.
 class GroupObserver final : public SequenceObserver {
  public:
   GroupObserver(const GroupOracle& oracle, SequenceObserver& whole) : oracle_(oracle), whole_(whole) {}
@@ -47,7 +47,7 @@ ForceSteps::ForceSteps(const Assembly& assembly, const Verifier& verifier, Oracl
       motions_(assembly, verifier, options.constraints, options.force),
       normalizer_(assembly) {}
 
-/// The motions to measure: of each set of parts the most promising ones, in directions that differ.
+/// The motions to measure: the most promising ones of each set of parts, in distinct directions.
 std::vector<const ForcedMotion*> ForceSteps::chosen(const std::vector<ForcedMotion>& all) const {
   std::map<std::vector<PartId>, std::vector<const ForcedMotion*>> of_set;
   for (const ForcedMotion& m : all) of_set.try_emplace(ids_of_placed(m.moving));
@@ -69,7 +69,7 @@ std::vector<const ForcedMotion*> ForceSteps::chosen(const std::vector<ForcedMoti
 }
 
 /// The motion that cuts in least: all are measured coarsely, then the best of them finely. When stopped: the best of
-/// those that were compared, if any.
+/// those compared so far, if any.
 std::optional<ForceSteps::Choice> ForceSteps::best_of(const std::vector<const ForcedMotion*>& list,
                                                       const RunContext& context) {
   const double tolerance = verifier_.options().max_penetration;
@@ -77,7 +77,7 @@ std::optional<ForceSteps::Choice> ForceSteps::best_of(const std::vector<const Fo
   MotionDepthOptions options{force.coarse_resolution * tolerance, force.coarse_share,
                              std::numeric_limits<double>::infinity(), static_cast<std::uint64_t>(force.coarse_poses)};
   const auto unsure = [&](double excess) { return excess + std::max(options.absolute, options.relative * excess); };
-  std::vector<std::pair<Choice, std::size_t>> measured;  // with the place in the list
+  std::vector<std::pair<Choice, std::size_t>> measured;  // with the index in the list
   double least = std::numeric_limits<double>::infinity();
   for (const ForcedMotion* m : list) {
     const auto found = motions_.depth(*m, options, context);
@@ -106,7 +106,7 @@ std::optional<ForceSteps::Choice> ForceSteps::best_of(const std::vector<const Fo
   return best ? best : measured.front().first;
 }
 
-/// All motions that may be the best are compared, as long as there is time.
+/// Compares all motions that may be the best, while there is time.
 std::optional<ForceSteps::Choice> ForceSteps::measured_choice(const RunContext& context) {
   std::vector<ForcedMotion> all;
   for (const Placed& group : builder_.open_groups())
@@ -116,7 +116,7 @@ std::optional<ForceSteps::Choice> ForceSteps::measured_choice(const RunContext& 
   return best_of(chosen(all), context);
 }
 
-/// The most promising of few motions, and what rays say of its depth.
+/// The most promising of a few motions, with a lower bound of its depth from rays.
 std::optional<ForceSteps::Choice> ForceSteps::quick_choice(const RunContext& context) {
   std::optional<ForcedMotion> best;
   for (const Placed& group : builder_.open_groups()) {
@@ -128,7 +128,7 @@ std::optional<ForceSteps::Choice> ForceSteps::quick_choice(const RunContext& con
   return Choice{std::move(*best), depth};
 }
 
-/// What cuts in nowhere beyond the tolerance may be a verified step, which is then recorded.
+/// A motion that nowhere exceeds the tolerance may pass verification; it is then recorded as a verified step.
 bool ForceSteps::is_valid(const Choice& choice, RunContext& context) {
   if (choice.excess() > verifier_.options().max_penetration) return false;
   const Attempt question{choice.motion.moving, choice.motion.fixed};
@@ -150,7 +150,7 @@ bool ForceSteps::force_one(ForceBudget& budget, const RunContext& context) {
   if (!own.should_stop())
     if (std::optional<Choice> better = measured_choice(own)) choice = std::move(better);
   if (!choice || context.cancel.cancelled()) return false;
-  RunContext to_the_end = context;  // a step that is verified is worth the time of others
+  RunContext to_the_end = context;  // a verified step may use the time of other steps
   if (is_valid(*choice, to_the_end)) return true;
   const ForcedMotion& motion = choice->motion;
   NormalizedPath written = normalizer_.normalize(motions_.path(motion), motion.moving);
@@ -179,7 +179,7 @@ bool ForceSteps::force_one(ForceBudget& budget, const RunContext& context) {
   return true;
 }
 
-/// Verified removals from the groups that are left, by the sequence planner, in searches of little depth.
+/// Lets the sequence planner find verified removals from the remaining groups, in shallow searches.
 void ForceSteps::take_apart(const ForceBudget& budget, RunContext& context) {
   RunContext own = context;
   for (const Placed& group : builder_.open_groups()) {
@@ -197,7 +197,7 @@ void ForceSteps::take_apart(const ForceBudget& budget, RunContext& context) {
   }
 }
 
-/// At most: what the constraints keep together takes fewer. At least one.
+/// Upper bound, since groups that the constraints keep together need fewer steps. At least one.
 std::size_t ForceSteps::steps_left() const {
   std::size_t steps = 0;
   for (const Placed& group : builder_.open_groups()) steps += group.size() - 1;

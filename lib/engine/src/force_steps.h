@@ -1,4 +1,4 @@
-/// Takes apart what a sequence planner has left together: verified steps where there are any, else forced ones.
+/// Takes apart the groups that a sequence planner left together: by verified steps where possible, else by forced ones.
 #pragma once
 
 #include <optional>
@@ -17,18 +17,18 @@ namespace dismantle {
 
 class ForceSteps {
  public:
-  /// All outlive it. `observer`: gets the verified removals; those that were taken apart before are not repeated.
+  /// All references must outlive it. `observer` gets the verified removals that are found here, not the earlier ones.
   ForceSteps(const Assembly& assembly, const Verifier& verifier, Oracle& oracle, PlanBuilder& builder,
              SequencePlanner& planner, SequenceObserver& observer, const RunOptions& options);
 
-  /// Until nothing is left to take apart, or cancelled: forces the part or group out that cuts in least above what it
-  /// overlaps when assembled, then removes what verified paths are found for. Without a deadline the result depends on
-  /// nothing but the question. With one, motions are compared as long as there is time, and each part that is left then
-  /// still gets a step, of the most promising motion among few, as far as ForceBudget::for_all() allows.
+  /// Repeats until everything is apart or the run is cancelled: forces out the part or group that cuts in least above
+  /// its assembled overlap, then removes the parts for which verified paths are found. Without a deadline the result
+  /// depends only on the question. With one, motions are compared while there is time; then each remaining part still
+  /// gets a step, along the most promising of a few motions, as far as ForceBudget::for_all() allows.
   void run(RunContext& context);
 
  private:
-  /// A motion and how deep it cuts in; `exact`: measured to its end.
+  /// A motion and how deep it cuts in; `exact`: the measurement was completed.
   struct Choice {
     ForcedMotion motion;
     std::optional<MotionDepth> depth{};
@@ -53,7 +53,7 @@ class ForceSteps {
   const RunOptions& options_;
   ForcedMotions motions_;
   PathNormalizer normalizer_;
-  std::set<std::vector<PartId>> tried_;  // groups that were given to the sequence planner since they are what they are
+  std::set<std::vector<PartId>> tried_;  // groups, by their parts, that the sequence planner was already given
 };
 
 }  // namespace dismantle

@@ -1,4 +1,4 @@
-// How deep the motions of forced steps cut in: samples first, then measured along the whole way.
+// How deep the motions of forced steps cut in: samples first, then a measurement along the whole path.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,8 +11,8 @@ namespace dismantle {
 
 namespace {
 
-/// Calls `found` with depths below the surface of a part at some points of a ray that starts on or outside it, where
-/// the ray is inside the part.
+/// Calls `found` with the depth below the surface of a part, and the distance along the ray, at some points where the
+/// ray is inside the part.
 template <class Found>
 void depths_along(const geometry::Solid& solid, const Eigen::Vector3d& from, const Eigen::Vector3d& along, double reach,
                   const Found& found) {
@@ -44,10 +44,10 @@ std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, cons
   return meter_.deepest(ids_of_placed(motion.moving), motion.fixed, path, options, context);
 }
 
-/// The first vertex found that is deeper in another part, at one of a few instants, than it was when assembled by more
-/// than `enough`; nothing when there is none among those that were tried.
+/// The first sampled vertex that is, at one of a few instants, deeper in another part than the initial overlap plus
+/// `enough`; empty if there is none.
 std::optional<MotionDepth> ForcedMotions::depth_at_instants(const ForcedMotion& motion, double enough) const {
-  const std::size_t instants = 6;  // a witness saves a measurement; what is missed here is measured
+  const std::size_t instants = 6;  // a witness saves a measurement; depths missed here are measured
   const Path all = path(motion);
   const auto try_points = [&](const PlacedPart& of, const PlacedPart& in) -> std::optional<MotionDepth> {
     const double allowed = assembly_.initial_overlap(of.part, in.part);
@@ -83,8 +83,8 @@ std::optional<MotionDepth> ForcedMotions::depth_at_instants(const ForcedMotion& 
 std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, const MotionDepthOptions& options,
                                                 const RunContext& context) {
   if (std::isfinite(options.stop_above)) {
-    // Measuring a deep overlap to its end takes seconds for large parts; a motion that cuts in deeper than another
-    // needs no more than a witness.
+    // Measuring a deep overlap completely takes seconds for large parts; a witness is enough to show that a motion cuts
+    // in deeper than another.
     const auto witness =
         motion.straight() ? least_depth(motion, options.stop_above) : depth_at_instants(motion, options.stop_above);
     if (witness && witness->excess() > options.stop_above) return witness;
@@ -120,7 +120,7 @@ std::optional<MotionDepth> ForcedMotions::least_depth(const ForcedMotion& motion
   std::optional<MotionDepth> worst;
   if (!motion.straight()) return worst;
   const Eigen::Vector3d& along = motion.twist.linear;
-  // Points of `of` move through `in` along `way`; `sign`: the motion itself, or against it.
+  // Rays from points of `of` through `in`; `sign`: 1 along the motion, -1 against it.
   const auto trace_rays = [&](const PlacedPart& of, const PlacedPart& in, double sign, double distance) {
     const bool moves = sign > 0;
     const double allowed = assembly_.initial_overlap(of.part, in.part);

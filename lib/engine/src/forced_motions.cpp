@@ -90,13 +90,13 @@ const std::vector<geometry::FaceAxis>& ForcedMotions::axes(PartId part) {
   }
   known = geometry::rounded_axes(faces);
   geometry::sort_by_area(known, options_.part_axes);
-  // A round part need not have a face along its axis, and that axis is used whatever the area of others.
+  // A round part need not have a face along its axis, so its axis is added, with an area that puts it first.
   for (const geometry::Twist& t : turns(part))
     geometry::add_face(known, {t.angular.normalized(), std::numeric_limits<double>::max()}, geometry::kSameDirection);
   return known;
 }
 
-/// Motions of the part's surface along itself that turn: of a round part, and of a thread.
+/// Slippable motions with a rotation: those of round parts and of threads.
 const std::vector<geometry::Twist>& ForcedMotions::turns(PartId part) {
   std::optional<std::vector<geometry::Twist>>& known = turns_.at(part);
   if (known) return *known;
@@ -107,7 +107,7 @@ const std::vector<geometry::Twist>& ForcedMotions::turns(PartId part) {
   return *known;
 }
 
-/// What leaves in one piece.
+/// Sets of parts that the constraints keep together; each leaves as one piece.
 std::vector<Placed> ForcedMotions::units(const Placed& group) const {
   std::vector<Placed> list;
   std::vector<PartId> done;
@@ -128,7 +128,7 @@ std::vector<Placed> ForcedMotions::units(const Placed& group) const {
   return list;
 }
 
-/// May these leave the group now?
+/// Do the constraints allow these parts to leave the group now?
 bool ForcedMotions::allowed(const Placed& moving, const Placed& group) const {
   if (moving.empty() || moving.size() == group.size()) return false;
   return std::none_of(moving.begin(), moving.end(), [&](const PlacedPart& p) {
@@ -180,7 +180,7 @@ double ForcedMotions::reach(const PlacedPart& part, const Vec3& along) const {
   return most;
 }
 
-/// By boxes alone: may the one meet the other on its way?
+/// Test by boxes alone: may `moving` meet `fixed` on its way?
 bool ForcedMotions::in_reach(const PlacedPart& moving, const PlacedPart& fixed, const Vec3& along,
                              double distance) const {
   const geometry::SweptBoxes swept({moving.pose, {moving.pose.t + distance * along, moving.pose.q}},
@@ -188,8 +188,9 @@ bool ForcedMotions::in_reach(const PlacedPart& moving, const PlacedPart& fixed, 
   return swept.meets(geometry::SweptBoxes({fixed.pose}, boxes_[fixed.part]), 0);
 }
 
-/// Rays along the motion from the one, and against it from the other, that enter the other side, and how long they stay
-/// in it. A surface that is a little inside the other when it starts and slides along does not enter it.
+/// Sends rays along the motion from `moving`, and against it from `fixed`; stores the share that enters the other part
+/// and the mean length inside it. A surface that starts slightly inside the other and slides along it does not enter
+/// it.
 void ForcedMotions::send_rays(const PlacedPart& moving, const PlacedPart& fixed, const Vec3& along,
                               Known& entry) const {
   const double skin = verifier_.options().max_penetration + assembly_.initial_overlap(moving.part, fixed.part);
@@ -247,7 +248,7 @@ double ForcedMotions::thickness(const ForcedMotion& motion, const Vec3& along) {
   return sum;
 }
 
-/// The unit alone, with what is in its way, and with what is firmly in its way.
+/// Adds the unit alone, with all that blocks it, and with only what blocks it firmly.
 void ForcedMotions::add_straight(const Placed& unit, const std::vector<Placed>& all, const Placed& group,
                                  const Vec3& along, std::vector<ForcedMotion>& list, const RunContext& context) {
   std::vector<Placed> sets{unit};
@@ -300,7 +301,7 @@ void ForcedMotions::add_screws(const Placed& unit, const Placed& group, std::vec
       const Vec3 axis = m.twist.angular.normalized();
       const double speed = axis.dot(m.twist.linear);
       const Vec3 along = speed > 0 ? axis : Vec3(-axis);
-      m.duration = distance_apart(m, along) / std::abs(speed);  // infinite for a mere rotation
+      m.duration = distance_apart(m, along) / std::abs(speed);  // infinite for a pure rotation
       if (!(m.duration * m.twist.angular.norm() <= 2 * std::numbers::pi * options_.max_turns)) continue;
       m.thickness = thickness(m, along);
       list.push_back(std::move(m));
@@ -341,7 +342,7 @@ std::optional<ForcedMotion> ForcedMotions::quick_candidate(const Placed& group, 
     for (const Placed& unit : leaving) candidates.push_back({&unit, d, along.back().length(unit)});
     if (context.should_stop()) return std::nullopt;
   }
-  // Of equal thickness the shortest is the best, and nothing is thinner than what is not blocked.
+  // Of equal thickness the shortest is the best. The search ends at the first candidate that is not blocked.
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.length < b.length; });
   const Candidate* best = nullptr;
@@ -359,7 +360,7 @@ std::optional<ForcedMotion> ForcedMotions::quick_candidate(const Placed& group, 
 }
 
 Path ForcedMotions::path(const ForcedMotion& motion) const {
-  // Below half a turn between two poses the screw motion through them is unique; an eighth keeps clear of that.
+  // The screw motion between two poses is unique below half a turn; an eighth of that leaves a margin.
   const double max_turn = std::numbers::pi / 8;
   const double turn = motion.duration * motion.twist.angular.norm();
   const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil(turn / max_turn)));

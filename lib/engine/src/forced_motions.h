@@ -25,39 +25,38 @@ std::vector<PartId> ids_of_placed(const Placed& parts);
 /// Some parts of a group leave the others by a translation or a screw motion.
 struct ForcedMotion {
   Placed moving, fixed;
-  geometry::Twist twist;  ///< velocity of `center`; of length 1 where it is straight
+  geometry::Twist twist;  ///< velocity of `center`; unit length for straight motions
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double duration = 0;   ///< until the hulls are apart
-  double thickness = 0;  ///< of what is in the way, mean over rays between the two sides, summed over pairs of parts
+  double thickness = 0;  ///< of material in the way, mean over rays between the two sides, summed over pairs of parts
   bool straight() const { return twist.angular.isZero(); }
 };
 
-/// By what is in the way, then by the length of the way.
+/// Compares the thickness in the way, then the length of the path.
 bool more_promising(const ForcedMotion& a, const ForcedMotion& b);
 
-/// Remembers what it has measured of pairs of parts, as long as they are not moved. Not safe to share between threads.
+/// Keeps measurements of pairs of parts until one of them moves. Not safe to share between threads.
 class ForcedMotions {
  public:
-  /// All outlive it.
+  /// All references must outlive it.
   ForcedMotions(const Assembly& assembly, const Verifier& verifier, const Constraints& constraints,
                 const ForceOptions& options);
 
-  /// Motions out of a group (two parts or more, ascending) that the constraints allow, the most promising first:
-  /// translations of parts alone and of those that are in each other's way, and screws of threaded parts.
+  /// Motions out of a group (two parts or more, ascending) that the constraints allow, most promising first:
+  /// translations of single parts and of parts that block each other, and screws of threaded parts.
   std::vector<ForcedMotion> candidates(const Placed& group, const RunContext& context);
-  /// The most promising of few: each part alone, along few directions. Its cost does not depend on how deep anything
-  /// cuts in. Nothing when the constraints let no part leave, or when the run is stopped.
+  /// The most promising of a few motions: each part alone, along few directions. The cost does not depend on how deep
+  /// they cut in. Empty if the constraints let no part leave or the run is stopped.
   std::optional<ForcedMotion> quick_candidate(const Placed& group, const RunContext& context);
-  /// A lower bound of how deep a straight motion cuts in, from rays, until more than `enough` is found; nothing where
-  /// they meet nothing.
+  /// Lower bound, from rays, of how deep a straight motion cuts in. Stops once more than `enough` is found. Empty if no
+  /// ray enters a part.
   std::optional<MotionDepth> least_depth(const ForcedMotion& motion,
                                          double enough = std::numeric_limits<double>::infinity()) const;
-  /// How deep the motion cuts in. Cut short once it is known to be worse than options.stop_above.
-  /// When stopped: what was found until then, not `proved`; nothing when nothing was measured. Nothing, too, when no
-  /// two parts come near each other.
+  /// How deep the motion cuts in. Ends early once the depth is known to exceed options.stop_above. When stopped: the
+  /// depth found so far, not `proved`. Empty if nothing was measured, or if no two parts come near each other.
   std::optional<MotionDepth> depth(const ForcedMotion& motion, const MotionDepthOptions& options,
                                    const RunContext& context);
-  /// Along the whole path, as it is written.
+  /// Measured along the whole path, as it is written to the plan.
   std::optional<MotionDepth> depth(const ForcedMotion& motion, const Path& path, const MotionDepthOptions& options,
                                    const RunContext& context);
   /// Columns as motion.moving.
@@ -66,11 +65,11 @@ class ForcedMotions {
  private:
   using Key = std::tuple<PartId, PartId, std::array<int, 3>>;
   struct Known {
-    Pose moving, fixed;    // where it was measured
-    double blocked = 0;    // share of the rays between the two that meet the other, [0, 1]
-    double thickness = 0;  // mean length of the rays in it, assembly units
+    Pose moving, fixed;    // poses at the time of measuring
+    double blocked = 0;    // share of the rays that hit the other part, [0, 1]
+    double thickness = 0;  // mean length of the rays inside it, assembly units
     std::optional<MotionDepth> depth{};
-    double resolution = std::numeric_limits<double>::infinity();  // by which `depth` was measured; none yet
+    double resolution = std::numeric_limits<double>::infinity();  // with which `depth` was measured; infinity: not yet
   };
   enum class Variety { few, all };
   std::vector<Placed> units(const Placed& group) const;
@@ -79,7 +78,7 @@ class ForcedMotions {
   const std::vector<geometry::Twist>& turns(PartId part);
   std::optional<MotionDepth> depth_at_instants(const ForcedMotion& motion, double enough) const;
   Known& known(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along);
-  /// As known(), and remembers nothing of pairs that never meet, which most pairs of many parts are.
+  /// As known(), but stores nothing for pairs that never meet, which are most pairs in a large group.
   const Known& blocking(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along);
   bool in_reach(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along, double distance) const;
   void send_rays(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along, Known& entry) const;

@@ -17,7 +17,7 @@ std::shared_ptr<const Mesh> placed(const std::shared_ptr<const Mesh>& mesh, cons
   return moved;
 }
 
-/// The same motion of renumbered parts in their own frames: an accepted path stays accepted.
+/// Converts an accepted path to the same motion of renumbered parts in the group's frame; it stays accepted.
 class Renamed final : public PathChecker {
  public:
   PathCheck check(const Path&) const override {

@@ -1,4 +1,5 @@
-/// One group of an unfinished disassembly as an assembly of its own, so that any sequence planner can take it apart.
+/// Presents one group of an unfinished disassembly as an assembly of its own, so that any sequence planner can take it
+/// apart.
 #pragma once
 
 #include <deque>
@@ -15,30 +16,30 @@
 
 namespace dismantle {
 
-/// Answers questions about the parts of one group, numbered from 0 and assembled where they are now, by asking the
-/// oracle of the whole assembly. Searches are limited in depth, so that what has resisted before is not searched for
-/// without end. Used by one sequence planner.
+/// Answers questions about the parts of one group by asking the oracle of the whole assembly. Here the parts are
+/// numbered from 0, and their current poses count as assembled. Searches are limited in depth, so that parts that could
+/// not be removed before do not cause endless searches. Used by one sequence planner.
 class GroupOracle final : public PathOracle {
  public:
-  /// `group`: ascending by id. `most_depth` (>= 1): of a search. The first two outlive it.
+  /// `group`: ascending by id. `most_depth` (>= 1) limits each search. The first two must outlive the oracle.
   GroupOracle(const Assembly& whole, PathOracle& oracle, std::vector<PlacedPart> group, unsigned most_depth);
 
   /// The parts of the group, as they are placed now, in the assembly units of the whole.
   const Assembly& assembly() const { return assembly_; }
-  /// A removal that was answered by this oracle, in terms of the whole assembly. @throws std::logic_error for others.
+  /// Converts a removal that this oracle answered to the whole assembly. @throws std::logic_error for other removals.
   Removal in_whole(const Removal& removal) const;
 
   const AttemptResult& attempt(const Attempt& attempt, RunContext& context) override;
   void prefetch(std::span<const Attempt> attempts, RunContext& context) override;
   const AttemptResult& propose(const Attempt& attempt, const Path& path, RunContext& context) override;
   OracleCounts counts() const override { return oracle_.counts(); }
-  /// What is proved of parts as they were assembled holds only while they are still there.
+  /// Null if a part is not at its original assembled pose: proofs of the whole oracle are about that pose.
   const Certificate* prove(const SeparationQuestion& question, const RunContext& context) override;
   double tolerance() const override { return oracle_.tolerance(); }
   const Constraints& constraints() const override { return constraints_; }
 
  private:
-  /// A pose in the group's frame and the same pose in the whole's: going there and back loses no bit.
+  /// The same pose in the group's frame and in the whole assembly's frame, so that conversion back and forth is exact.
   using Known = std::pair<Pose, Pose>;
   std::optional<PartId> local(PartId whole) const;  // nothing: not in the group
   Attempt to_whole(const Attempt& attempt) const;

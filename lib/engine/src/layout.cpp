@@ -16,13 +16,13 @@ struct Rectangle {
   Eigen::Vector2d lo, hi;
 };
 
-/// A value of x at which a corner may be placed. Of places that are equally near, the lower rank is taken.
+/// A value of x at which a corner may be placed. Among equally near positions the lowest rank is taken.
 struct Column {
   double x = 0;
   std::size_t rank = 0;
 };
 
-/// `wish` and the edges of all rectangles, by ascending x, each value once, with the lowest of its ranks.
+/// `wish` and the edges of all rectangles, by ascending x, each value once, with its lowest rank.
 std::vector<Column> columns_at(double wish, const std::vector<Rectangle>& blocked) {
   std::vector<Column> columns{{wish, 0}};
   for (const Rectangle& r : blocked) {
@@ -37,7 +37,7 @@ std::vector<Column> columns_at(double wish, const std::vector<Rectangle>& blocke
   return columns;
 }
 
-/// Sweeps over rectangles by ascending x and keeps those that the line crosses, so that a column costs what it crosses.
+/// Sweeps a line over rectangles by ascending x and keeps those that it crosses, so that a column costs only these.
 class Columns {
  public:
   /// `blocked`, by ascending lower edge, must outlive this.
@@ -47,14 +47,14 @@ class Columns {
               [&](std::size_t p, std::size_t q) { return blocked[p].lo.x() < blocked[q].lo.x(); });
   }
 
-  /// The values of y nearest to `wish`, not below it and not above it, that no rectangle holds inside at `x`. Calls
-  /// must be by ascending `x`.
+  /// The values of y nearest to `wish`, one not below and one not above it, that are inside no rectangle at `x`. Must
+  /// be called with ascending `x`.
   std::pair<double, double> nearest_free(double x, double wish) {
     for (; next_ < by_left_.size() && blocked_[by_left_[next_]].lo.x() < x; ++next_)
       crossed_.insert(std::lower_bound(crossed_.begin(), crossed_.end(), by_left_[next_]), by_left_[next_]);
     std::erase_if(crossed_, [&](std::size_t r) { return blocked_[r].hi.x() <= x; });
     double above = wish, below = wish;
-    for (const std::size_t i : crossed_) {  // by rising lower edge: what was passed is not met again
+    for (const std::size_t i : crossed_) {  // by ascending lower edge, so one pass is enough
       const Rectangle& r = blocked_[i];
       if (r.lo.y() < above && above < r.hi.y()) above = r.hi.y();
     }
@@ -82,11 +82,11 @@ class Table {
   Rectangle shadow(const Aabb& box) const { return {{box.lo[u_], box.lo[v_]}, {box.hi[u_], box.hi[v_]}}; }
   void take(const Rectangle& r) { taken_.push_back(r); }
 
-  /// Lower corner of the free place for a box of this size whose middle is nearest to `middle`. Where a corner may not
-  /// be is a union of rectangles; the nearest point outside of it has `middle` or an edge in either coordinate.
+  /// Lower corner of the free position of a box of this size whose centre is nearest to `middle`. The forbidden corners
+  /// are a union of rectangles; each coordinate of the nearest point outside is that of `wish` or of an edge.
   Eigen::Vector2d place(const Eigen::Vector2d& size, const Eigen::Vector2d& middle) const {
     std::vector<Rectangle> blocked;
-    // Things that keep the gap must not be a rounding closer, and both edges are rounded.
+    // Rounding must not reduce the gap, and both edges are rounded.
     const double gap = gap_ + 2 * geometry::kRounding * gap_;
     for (const auto& t : taken_) blocked.push_back({t.lo.array() - gap - size.array(), t.hi.array() + gap});
     std::stable_sort(blocked.begin(), blocked.end(),
@@ -117,15 +117,14 @@ class Table {
 }  // namespace
 
 void LayoutOptions::describe(Schema<LayoutOptions>& s) {
-  s.add(
-      "enabled", &LayoutOptions::enabled,
-      {.doc = "Plan the way of each part from a layout to where it is put in (Algorithm 3). Off: assembly steps begin "
-              "where the disassembly left the parts."});
+  s.add("enabled", &LayoutOptions::enabled,
+        {.doc = "Plan the transfer of each part from a layout to where it is inserted (Algorithm 3). Off: assembly "
+                "steps begin where the disassembly left the parts."});
   s.add_choice<Up>("up", &LayoutOptions::up,
                    {{"x", Up::x, "the plane of y and z"}, {"y", Up::y, "of z and x"}, {"z", Up::z, "of x and y"}},
                    "Normal of the plane on which parts are laid out around the assembly.");
   s.add("gap", &LayoutOptions::gap,
-        {.unit = "unit", .min = 1e-3, .max = 100, .doc = "Least distance between the boxes of two things laid out."});
+        {.unit = "unit", .min = 1e-3, .max = 100, .doc = "Minimum distance between any two boxes of the layout."});
 }
 
 std::vector<Eigen::Vector3d> lay_out(const std::vector<Aabb>& boxes, const std::vector<Aabb>& taken, Up up,

@@ -17,8 +17,8 @@ using Clock = std::chrono::steady_clock;
 
 bool is_deeper(unsigned depth, unsigned than) { return than != 0 && (depth == 0 || depth > than); }
 
-/// A search that ended for a reason other than its depth ends the same way when it may go deeper; one that found
-/// nothing to search ends the same way at any depth.
+/// A search that ended for a reason other than its depth ends the same way with a larger depth. An outcome that needs
+/// no search is the same at any depth.
 bool holds_for_deeper(Outcome o) {
   return o == Outcome::exhausted || o == Outcome::infeasible || o == Outcome::timeout;
 }
@@ -64,8 +64,8 @@ void Oracle::give_back(std::shared_ptr<PathPlanner> planner) {
   if (planner != concurrent_planner_) unused_planners_.push_back(std::move(planner));
 }
 
-/// A search, unless it is known before that it finds nothing; with proofs while it goes on, and where it found nothing
-/// perhaps one after it. Time limits of the attempt begin with the search.
+/// Runs a search, unless a known proof answers the question. Proofs may be tried during the search, and after it if it
+/// found no path. Time limits of the attempt begin with the search.
 ComputedAttempt Oracle::run(PathPlanner& planner, const Question& question, const RunContext& context) {
   const Attempt& attempt = question.attempt;
   ComputedAttempt computed;
@@ -84,7 +84,7 @@ ComputedAttempt Oracle::run(PathPlanner& planner, const Question& question, cons
       result.blocked_by = infeasible_by(*found, attempt).blocked_by;
       result.state = nullptr;
     }
-    // A proof that was cut short leaves open what a longer one says.
+    // A proof that was cut short leaves the question open.
     if (computed.answer.certificate == nullptr && context.should_stop() &&
         !is_success(computed.answer.result.outcome()))
       computed.interrupted = true;
@@ -92,7 +92,7 @@ ComputedAttempt Oracle::run(PathPlanner& planner, const Question& question, cons
   return computed;
 }
 
-/// On any thread. What is computed ahead has no log, and brings its lines along.
+/// Runs on any thread. Speculative computations have no log; they return their log lines.
 LoggedAttempt Oracle::compute(const Question& question, RunContext context) {
   LoggedAttempt result;
   context.threads = 1;
@@ -131,7 +131,7 @@ const AttemptResult* Oracle::remembered(const AttemptKey& key) {
   return answer;
 }
 
-/// The last answer that was asked for and that a search for `attempt` may resume.
+/// The latest answer whose search one for `attempt` may resume.
 const AttemptResult* Oracle::last_resumable(const Attempt& attempt) const {
   const auto known = unsuccessful_.find(digest_of_moving(attempt));
   if (known == unsuccessful_.end()) return nullptr;
@@ -140,8 +140,8 @@ const AttemptResult* Oracle::last_resumable(const Attempt& attempt) const {
   return last == known->second.rend() ? nullptr : *last;
 }
 
-/// A search that resumes another one is another question than one that begins anew. The same attempt asked for again
-/// has the same answer.
+/// A resumed search is a different question from one that begins anew. The same attempt asked for again has the same
+/// answer.
 Oracle::Question Oracle::question_of(const Attempt& attempt) const {
   Question question{canonical(attempt, part_count_), {}};
   question.key = {digest_of(question.attempt), attempt.max_depth, {}};
@@ -174,7 +174,7 @@ const AttemptResult& Oracle::attempt(const Attempt& attempt, RunContext& context
   }
   const auto compute_it = [&](const RunContext& c) { return compute(question, c); };
   LoggedAttempt logged = computed_ahead_.get(question.key, compute_it, context);
-  if (deferred_ != nullptr) deferred_->rethrow_failure();  // every other search would fail alike
+  if (deferred_ != nullptr) deferred_->rethrow_failure();  // every other search would fail in the same way
   for (const auto& line : logged.log) context.log(line.level, line.text);
   ComputedAttempt& computed = logged.computed;
   if (!attempt.resume) computed.answer.result.state = nullptr;
@@ -253,7 +253,7 @@ SearchEffort Oracle::effort_on(PartId part) const {
     const auto key = keys_.find(&answer);
     if (!moves || key == keys_.end() || is_success(answer.result.outcome()) || !answers_.contains(key->second))
       continue;
-    if (answer.certificate != nullptr && answer.seconds == 0) continue;  // proved, so that no search was made
+    if (answer.certificate != nullptr && answer.seconds == 0) continue;  // proved without a search
     ++effort.attempts;
     effort.depth = std::max({effort.depth, answer.result.depth, answer.attempt.max_depth});
     effort.seconds += answer.seconds;

@@ -1,4 +1,4 @@
-/// The oracle that `run` uses, with what the runner wants to know beyond the interface.
+/// The oracle that `run` uses, with queries beyond the interface.
 #pragma once
 
 #include <atomic>
@@ -23,10 +23,10 @@ struct LogLine {
 /// An attempt that was computed, perhaps before it was asked for.
 struct LoggedAttempt {
   ComputedAttempt computed;
-  std::vector<LogLine> log;  ///< for the thread that asks to pass on; empty where the attempt had a log to write to
+  std::vector<LogLine> log;  ///< passed on by the asking thread; empty if the attempt had its own log
 };
 
-/// What searches cost together.
+/// Total cost of several searches.
 struct SearchEffort {
   unsigned attempts = 0;
   unsigned depth = 0;  ///< the largest depth that was allowed; 0: none of them had a limit
@@ -51,13 +51,13 @@ class Oracle final : public PathOracle {
   double tolerance() const override { return verifier_.options().max_penetration; }
   const Constraints& constraints() const override { return constraints_; }
 
-  /// Null when `result` is not an answer of this oracle that was planned, remembered, or accepted as proposed.
+  /// Key of `result`; null unless this oracle planned it, remembered it, or accepted it as a proposal.
   const AttemptKey* key_of(const AttemptResult* result) const;
-  /// The searches in which `part` was to leave, alone or with others, as far as they were asked for and ended by
-  /// themselves.
+  /// Cost of the unsuccessful searches for removing `part`, alone or with others, that were asked for and not
+  /// interrupted.
   SearchEffort effort_on(PartId part) const;
   const std::string& planner_id() const { return runner_.planner_id(); }
-  /// What proves that parts are left for good.
+  /// Proofs that parts cannot be separated.
   ProofSchedule& proofs() { return proofs_; }
   /// As ProofSchedule::seconds.
   double proof_seconds() const { return proofs_.seconds(); }
@@ -100,7 +100,7 @@ class Oracle final : public PathOracle {
   std::map<std::string, double> planner_counts_;
   std::atomic<std::uint64_t> planned_{0}, memoised_{0}, proposed_{0}, refused_{0};
   std::mutex planner_mutex_;                         ///< the factory need not be safe to call from several threads
-  std::shared_ptr<PathPlanner> concurrent_planner_;  ///< serves all attempts; null where planners do not
+  std::shared_ptr<PathPlanner> concurrent_planner_;  ///< serves all attempts; null if planners are not concurrent
   std::vector<std::shared_ptr<PathPlanner>> unused_planners_;   ///< each serves one attempt at a time
   SpeculativeCache<AttemptKey, LoggedAttempt> computed_ahead_;  ///< last: its tasks use all of the above
 };

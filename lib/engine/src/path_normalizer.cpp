@@ -53,11 +53,11 @@ PathNormalizer::PathNormalizer(const Assembly& assembly) {
     box.extend(part.mesh->box());
   }
   size_ = box.empty() ? 0.0 : box.size().maxCoeff();
-  // docs/plan-format.md allows 1 % of the largest edge between two poses; the margin is for the rounding of poses on
-  // their way to input units and back.
+  // docs/plan-format.md allows 1 % of the largest edge between two poses; the margin is for rounding when poses are
+  // converted to input units and back.
   max_travel_ = 0.01 * 0.99 * size_;
-  // A four-hundredth of the tightest known fit (clearance 4e-5 of the size): leaving out an instant that is this near
-  // to the screw motion through its neighbours spoils no valid path. The result is what is verified.
+  // A four-hundredth of the tightest known fit (clearance 4e-5 of the size), so that dropping an instant this close to
+  // the screw motion through its neighbours makes no valid path invalid. The simplified path is verified.
   tolerance_ = 1e-7 * size_;
 }
 
@@ -91,8 +91,8 @@ std::vector<double> PathNormalizer::ways(const Path& path, const std::vector<Pla
   return way;
 }
 
-// Ramer, Douglas and Peucker on screw motions: an instant is left out when it lies on the screw motion that joins
-// the instants kept, at the place that the length of the way gives it.
+// Ramer-Douglas-Peucker on screw motions: an instant is dropped if it lies within the tolerance on the screw motion
+// between kept instants, at the parameter that follows from the path length.
 std::vector<std::size_t> PathNormalizer::essential(const Path& path, const std::vector<double>& way,
                                                    const std::vector<PlacedPart>& moving) const {
   const std::size_t n = path.size();
@@ -140,7 +140,7 @@ NormalizedPath PathNormalizer::normalize(const Path& path, const std::vector<Pla
     const std::vector<Pose>& b = clean_path[kept[j]];
     const double way = travel(a, b, moving);
     const double share = max_travel_ > 0 ? std::ceil(way / max_travel_) : 1.0;
-    const double max_instants = 1e5;  // a thousand times across the assembly: a planner that ran away
+    const double max_instants = 1e5;  // a thousand lengths of the assembly: the planner diverged
     if (!(share + static_cast<double>(result.path.size()) <= max_instants)) {
       result.problem =
           fmt::format("the path is too long: over {} assembly units of travel", max_instants * max_travel_);

@@ -21,14 +21,15 @@ struct PartBall {
   double radius = 0;
 };
 
-/// A path as docs/plan-format.md wants it, or why there is none.
+/// A path as docs/plan-format.md requires it, or why there is none.
 struct NormalizedPath {
   Path path;
   std::vector<double> way;        ///< for each instant, the length of the way from the start; assembly units
   std::vector<double> given_way;  ///< the same for each instant of the given path
   std::string problem;            ///< not empty: the given path is unusable
 
-  /// The last instant of the given path at or before place `u` in [0, 1] of `segment` (after instant `segment`).
+  /// Index of the last given instant at or before parameter `u` in [0, 1] of `segment`, which begins at instant
+  /// `segment`.
   std::size_t given_instant(std::size_t segment, double u) const;
 };
 

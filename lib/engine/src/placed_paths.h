@@ -1,4 +1,4 @@
-/// Paths at other places.
+/// Displaced and reversed paths.
 #pragma once
 
 #include <algorithm>

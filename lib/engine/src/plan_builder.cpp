@@ -19,7 +19,7 @@ static std::optional<OverlapPlace> place_in_input(std::optional<OverlapPlace> pl
   return place;
 }
 
-/// A pair for which the user has said otherwise keeps that: its depth is another.
+/// States the part, and the overlaps whose declared depth comes from it. A pair whose depth the user declared differs.
 static void state_flexible(const FlexiblePart& flexible, PlanAssembly& assembly) {
   for (PlanPart& part : assembly.parts)
     if (part.name == flexible.part) part.flexible = flexible.kind;
@@ -148,13 +148,13 @@ void PlanBuilder::record(const Removal& removal) {
   refresh_status();
 }
 
-/// Does the removal move on what the last step has left part-way?
+/// Does the removal continue the intermediate placement of the last step?
 bool PlanBuilder::goes_on(const Removal& removal, std::size_t from) const {
   return !recorded_.empty() && recorded_.back().part_way && recorded_.back().from == from &&
          recorded_.back().parts == removal.parts;
 }
 
-/// Puts the last step before `step` and its path before `path`, as one; it is recorded no more.
+/// Prepends the last step to `step` and its path to `path`, and deletes its record.
 void PlanBuilder::take_back_last(PlanStep& step, Path& path) {
   const PlanStep& last = plan_.disassembly.back();
   step.step = last.step;
@@ -172,7 +172,7 @@ void PlanBuilder::take_back_last(PlanStep& step, Path& path) {
   path.insert(path.begin(), recorded_.back().path->begin(), recorded_.back().path->end() - 1);
   plan_.disassembly.pop_back();
   plan_.assembly_steps.erase(plan_.assembly_steps.begin());
-  groups_.pop_back();  // of a step that leaves parts part-way: empty
+  groups_.pop_back();  // empty, because that step was an intermediate placement
   recorded_.pop_back();
 }
 
@@ -193,7 +193,7 @@ void PlanBuilder::check_constraints(const Removal& removal, const std::vector<Pa
       throw std::logic_error("a removal before another that is to come first");
 }
 
-/// One part, or parts that lists of the constraints hold together.
+/// True for one part, or for parts that the constraints keep together.
 bool PlanBuilder::stays_together(const std::vector<PartId>& group) const {
   if (group.size() <= 1) return true;
   std::vector<PartId> reached{group.front()};
@@ -257,7 +257,7 @@ PlanCertificate PlanBuilder::to_plan(const Certificate& certificate) const {
   return written;
 }
 
-/// Its place in plan().certificates, where each is written once.
+/// Its index in plan().certificates, where each is written once.
 std::size_t PlanBuilder::index_of(const Certificate& certificate) {
   const auto known = std::find(written_.begin(), written_.end(), &certificate);
   const auto index = static_cast<std::size_t>(known - written_.begin());

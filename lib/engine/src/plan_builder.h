@@ -15,60 +15,60 @@
 
 namespace dismantle {
 
-/// A step that was recorded. Step i makes group i + 1 (unless part_way); group 0 is what was never left.
+/// A recorded step. Step i makes group i + 1 (empty if part_way); group 0 holds the parts that never left.
 struct RecordedStep {
   std::vector<PartId> parts;
   std::size_t from = 0;              ///< the group that they left
-  std::shared_ptr<const Path> path;  ///< of the oracle's answer, or of several, one after the other
+  std::shared_ptr<const Path> path;  ///< of the oracle's answer; of several answers, one after the other
   bool part_way = false;             ///< the parts stay in `from`; no group is made
-  std::optional<PartId> alone{};     ///< this one leaves; the others that moved stay in `from`
+  std::optional<PartId> alone{};     ///< only this part leaves; the other moved parts stay in `from`
 
-  /// Is `part`, which moved, out after the step?
+  /// Does `part`, which moved, leave its group in this step?
   bool leaves(PartId part) const { return !part_way && (!alone || *alone == part); }
 };
 
-/// The deepest contact of a part, placed so, with each of the others that are left; ascending by the other part.
+/// The deepest contact of a part at pose `at` with each other part of its group; ascending by the other part.
 using ContactsOf = std::function<std::vector<Contact>(PartId part, const Pose& at)>;
 
-/// A removal is recorded only if the oracle answered exactly this question with a success: these parts, where they
-/// are now, past all the others of their group, where those are now. So no plan holds an unchecked path, whatever a
-/// sequence planner does.
+/// Records a removal only if the oracle answered exactly this question with success: these parts at their current
+/// poses, with all others of their group at theirs. So no plan holds an unchecked path, whatever a sequence planner
+/// does.
 class PlanBuilder {
  public:
   PlanBuilder(const Assembly& assembly, const Oracle& oracle, const RunOptions& options, std::string planner_id);
 
-  /// Appends one step to the plan, or, when the last one left the very same parts part-way, goes on with that one: for
-  /// the reader of the plan it is one motion. @throws std::logic_error saying what is wrong with the removal; nothing
-  /// has changed then.
+  /// Appends one step to the plan. If the last step was an intermediate placement of the same parts, extends it
+  /// instead: the plan shows one motion. @throws std::logic_error with the problem of the removal; nothing has changed
+  /// then.
   void record(const Removal& removal);
 
   const Plan& plan() const { return plan_; }
-  /// Records a step that no oracle has accepted: `parts`, which are together in a group, leave the rest of it along
-  /// `path` (columns as `parts`). `worst`: what was measured along it, to the end when `exact`. `proof`: that the pair of
-  /// `worst` cannot be separated; may be null. @throws std::logic_error as record().
+  /// Records a step that no oracle has accepted: `parts`, which are in one group, leave the rest of it along `path`
+  /// (columns as `parts`). `worst`: depth measured along it, completely if `exact`. `proof` (may be null): the pair of
+  /// `worst` cannot be separated. @throws std::logic_error as record().
   void force(const std::vector<PartId>& parts, const Path& path, const MotionDepth& worst, bool exact,
              const Certificate* proof, double seconds);
-  /// Groups of several parts that are asked to come apart, each with where its parts are.
+  /// Groups of several parts that still have to be separated, with the poses of their parts.
   std::vector<std::vector<PlacedPart>> open_groups() const;
   std::size_t forced() const { return forced_; }
   const std::vector<RecordedStep>& recorded() const { return recorded_; }
-  /// Parts whose group still has others: the group that was never left, then groups that came out whole.
+  /// Parts whose group still has others: first those of group 0, then those of groups that were removed as a whole.
   std::vector<PartId> left() const;
   bool complete() const;
-  /// What `part` has around it: the others of its group, where they are now.
+  /// The other parts of the group of `part`, at their current poses.
   std::vector<PlacedPart> around(PartId part) const;
-  /// Nothing more is asked for: every group is one part or what is to stay together, or the target is out.
+  /// True if nothing is left to do: every group is one part or is to stay together, or the target is out.
   bool fulfilled() const;
   /// Sets plan().unsolved, and plan().certificates, each once.
-  /// `places` may be empty: then it is not known what a part touches where it came furthest.
+  /// `places` may be empty: then the contacts at the best poses are not known.
   void set_unsolved(const std::vector<Unsolved>& unsolved, const ContactsOf& places = {});
-  /// Drops what is unsolved of parts that have left since; certificates stay.
+  /// Drops the unsolved entries of parts that have left since; certificates stay.
   void drop_solved();
   /// Sets `after` and `layer` of the disassembly steps; as needed_steps().
   void set_needed(const std::vector<std::vector<std::size_t>>& needed);
   /// Sets `overlaps` of the disassembly steps, [k] of the k-th.
   void set_overlaps(std::vector<std::vector<PlanStepOverlap>> overlaps);
-  /// Sets plan().assembly_steps in place of the disassembly backwards.
+  /// Replaces the reversed disassembly in plan().assembly_steps.
   void set_assembly(std::vector<PlanStep> steps, AssemblyStatus status, std::string message);
 
  private:
@@ -91,7 +91,7 @@ class PlanBuilder {
   Constraints constraints_;
   Plan plan_;
   std::vector<Pose> poses_;                  // by part id
-  std::vector<std::vector<PartId>> groups_;  // the first is the one that was never left; [i + 1] made by step i
+  std::vector<std::vector<PartId>> groups_;  // [0]: parts that never left; [i + 1]: made by step i
   std::vector<RecordedStep> recorded_;
   std::vector<const Certificate*> written_;  // those of plan_.certificates
   std::size_t forced_ = 0;

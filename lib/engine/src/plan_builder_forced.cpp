@@ -1,4 +1,4 @@
-// Forced steps of a plan: what no oracle has accepted.
+// Forced steps of a plan, which no oracle has accepted.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,8 +17,8 @@ bool has_name(const std::vector<std::string>& names, const std::string& name) {
 
 }  // namespace
 
-/// The proof that says why `moving` cannot leave `rest`: of all that are about parts of both and of no others, the one
-/// about the pair that is worst off, else the first.
+/// Index of the proof that `moving` cannot leave `rest`: among proofs about parts of both and no others, the one about
+/// the pair of `worst`, else the first.
 std::optional<std::size_t> PlanBuilder::proof_against(const std::vector<PartId>& moving,
                                                       const std::vector<PartId>& rest, const MotionDepth& worst) const {
   std::vector<std::string> these, those;
@@ -42,8 +42,7 @@ std::optional<std::size_t> PlanBuilder::proof_against(const std::vector<PartId>&
   return best;
 }
 
-/// Why no verified path is known: a proof, or what the searches said and what they cost, in counts that are the same on
-/// every machine.
+/// Why no verified path is known: a proof, or the message and the cost of the searches, in machine-independent counts.
 std::string PlanBuilder::why_forced(const std::vector<PartId>& parts, std::optional<std::size_t> proof) const {
   std::string text = proof ? plan_.certificates[*proof].text : std::string();
   if (proof && plan_.certificates[*proof].full_tolerance) return text;
@@ -73,7 +72,7 @@ void PlanBuilder::force(const std::vector<PartId>& parts, const Path& path, cons
   std::vector<PartId> rest;
   std::copy_if(group.begin(), group.end(), std::back_inserter(rest), [&](PartId id) { return !moves(id); });
   if (rest.empty()) throw std::logic_error("a forced step that leaves nothing behind");
-  AttemptResult no_answer;  // the constraints are checked on what moves
+  AttemptResult no_answer;  // the constraints are only checked on the moving parts
   check_constraints({parts, &no_answer}, rest);
 
   const Normalization& to = assembly_.normalization;

@@ -15,7 +15,7 @@ bool holds(const std::vector<PartId>& parts, PartId id) {
   return std::find(parts.begin(), parts.end(), id) != parts.end();
 }
 
-/// Who hung together with whom, and where, at any step: what each step changed, so that it takes the room of the steps.
+/// Groups and poses of all parts before any step. Stores only the changes of each step, to save memory.
 struct History {
   std::vector<std::vector<Pose>> poses;  // [step][k]: of its k-th part, just before it
   std::vector<std::vector<std::pair<std::size_t, std::size_t>>> groups;  // [part]: from this step on, in this group
@@ -44,7 +44,7 @@ History history_of(const std::vector<RecordedStep>& steps, std::size_t part_coun
   return history;
 }
 
-/// Without turns, along one line.
+/// True for a path without rotation, along one line.
 bool is_straight(const std::vector<Pose>& way) {
   const Eigen::Vector3d along = way.back().t - way.front().t;
   for (const Pose& p : way) {
@@ -72,7 +72,7 @@ std::vector<PartWay> ways_of(const RecordedStep& step, const std::vector<Aabb>& 
   return ways;
 }
 
-/// Asks the verifier about those pairs only whose boxes meet: most pairs of steps have none.
+/// Asks the verifier only about pairs of parts whose boxes meet; most pairs of steps have none.
 class Needs {
  public:
   Needs(const std::vector<RecordedStep>& steps, const Assembly& assembly, const Verifier& verifier)
@@ -92,7 +92,7 @@ class Needs {
     const std::vector<PartId>&these = steps_[b].parts, &those = steps_[a].parts;
     for (const PartId id : these)
       if (holds(those, id)) return true;
-    // Parted before that: nothing that a did was in b's way.
+    // In different groups before a: its parts were not in the way of b.
     if (history_.group(these.front(), a) != steps_[a].from) return false;
     for (std::size_t k = 0; k < these.size(); ++k)
       for (std::size_t j = 0; j < those.size(); ++j)
@@ -120,7 +120,7 @@ std::vector<std::vector<std::size_t>> needed_steps(const std::vector<RecordedSte
   std::vector<std::vector<bool>> follows(n, std::vector<bool>(n, false));  // [b][a]: a has to come before b
   for (std::size_t b = 0; b < n; ++b) {
     const std::vector<PartWay> ways = ways_of(steps[b], needs.boxes());
-    // Latest first: what follows from a later one is not asked for.
+    // Latest first: steps implied by a later one are not checked.
     for (std::size_t a = b; a-- > 0;) {
       if (follows[b][a]) continue;
       if (!context.should_stop() && !needs(b, ways, a)) continue;
@@ -142,7 +142,7 @@ std::vector<unsigned> layers_of(const std::vector<std::vector<std::size_t>>& nee
 
 std::vector<std::pair<PartId, PartId>> part_precedence(const std::vector<RecordedStep>& steps,
                                                        const std::vector<std::vector<std::size_t>>& needed) {
-  // A part leaves with its last removal; shifts before that are part of it.
+  // A part leaves with its last removal; intermediate placements before that are part of it.
   std::map<PartId, std::size_t> leaves;
   for (std::size_t i = 0; i < steps.size(); ++i)
     for (const PartId id : steps[i].parts)

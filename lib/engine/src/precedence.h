@@ -1,4 +1,4 @@
-/// Which steps of a disassembly truly need which others to have been done.
+/// Which steps of a disassembly depend on which earlier ones.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@
 
 namespace dismantle {
 
-/// Step b needs the earlier step a when it moves a part that a moved, or when its way would cut into the parts of a
-/// where they were before a, as far as the verifier can tell with little effort, pair by pair. Steps that do not need
-/// each other may be done in either order or simultaneously; only how far a part has to be taken until its hull is apart
-/// depends on what is still there. [b]: those that it needs, ascending, without those that follow from others. Steps
-/// from the one on at which `context` says to stop are taken to need all before them.
+/// Step b needs the earlier step a if it moves a part that a moved, or if its path would cut into the parts of a at
+/// their poses before a. The verifier decides this with little effort, pair by pair. Steps that do not need each other
+/// may be done in either order or simultaneously; only the distance until the hulls are apart depends on the parts
+/// still present. [b]: the steps that it needs, ascending, without those implied by others. From the step at which
+/// `context` asks to stop, steps are taken to need all before them.
 std::vector<std::vector<std::size_t>> needed_steps(const std::vector<RecordedStep>& steps, const Assembly& assembly,
                                                    const Verifier& verifier, const RunContext& context);
 

@@ -18,23 +18,21 @@ void ProofOptions::describe(Schema<ProofOptions>& s) {
         {.unit = "1",
          .min = 1,
          .max = 1e12,
-         .doc = "Advanced. Steps and state checks that a search spends before cheap proofs are tried: about what they "
-                "cost. A search that ends before has them tried where it found nothing."});
+         .doc = "Advanced. Steps and state checks that a search spends before cheap proofs are tried; about the cost "
+                "of these proofs. If the search ends earlier without a path, they are tried then."});
   s.add("medium_effort_steps", &ProofOptions::medium_effort_steps,
-        {.unit = "1", .min = 1, .max = 1e12, .doc = "Advanced. The same for expensive proofs."});
+        {.unit = "1", .min = 1, .max = 1e12, .doc = "Advanced. As low_effort_steps, for expensive proofs."});
   s.add("reduced_tolerance", &ProofOptions::reduced_tolerance,
         {.unit = "1",
          .min = 0.05,
          .max = 1,
-         .doc = "Advanced. Share of the tolerance for which the last proofs are tried first. With less tolerance more "
-                "is proved, "
-                "but the proof covers fewer motions."});
-  s.add(
-      "final_parts", &ProofOptions::final_parts,
-      {.unit = "1",
-       .min = 0,
-       .doc =
-           "Advanced. Parts for which proofs are tried at the end of a run, at most; up to a minute each. 0 = none."});
+         .doc = "Advanced. Share of the tolerance for which the last proofs are tried first. With a smaller tolerance "
+                "more can be proved, but the proof covers fewer motions."});
+  s.add("final_parts", &ProofOptions::final_parts,
+        {.unit = "1",
+         .min = 0,
+         .doc = "Advanced. Maximum number of parts for which proofs are tried at the end of a run, up to a minute "
+                "each. 0 = none."});
   s.add("deadline_share", &ProofOptions::deadline_share,
         {.unit = "1",
          .min = 0.01,

@@ -43,7 +43,7 @@ ProofSchedule::ProofSchedule(const Assembly& assembly, const Verifier& verifier,
     const ProverTraits traits = named.prover->traits();
     provers_.push_back({std::move(named), traits});
   }
-  for (const Part& part : assembly.parts) {  // what the verifier has already; it outlives the memo
+  for (const Part& part : assembly.parts) {  // shared with the verifier, which outlives the memo
     memo_.put("solids", part.id,
               std::shared_ptr<const std::vector<geometry::Solid>>(std::shared_ptr<void>(), &verifier.solids(part.id)));
     memo_.put("hull", part.id,
@@ -66,7 +66,7 @@ bool ProofSchedule::asks(const Prover& prover, ProofEffort effort, bool depends_
   return t.effort == effort && t.depends_on_poses == depends_on_poses && parts >= t.min_parts && parts <= t.max_parts;
 }
 
-/// Nothing when stopped.
+/// Empty when stopped.
 std::optional<ProofSchedule::Answer> ProofSchedule::ask(const SeparationQuery& query, ProofEffort effort,
                                                         bool depends_on_poses, const RunContext& context) {
   const Clock::time_point begin = Clock::now();
@@ -199,15 +199,15 @@ const Certificate* ProofSchedule::prove_reduced(PartId a, PartId b, const RunCon
   return prove({{a, b}, ProofEffort::high, options_.reduced_tolerance}, context);
 }
 
-/// Expensive ones only about pairs: how one of many parts is held is asked when the sequence planner asks for it, or at
-/// the end, for most of such parts leave once others have left.
+/// Tries expensive proofs only for pairs. Larger sets wait until the sequence planner asks or the run ends, because
+/// most of their parts can leave once others have left.
 const Certificate* ProofSchedule::after(const Attempt& attempt, const PathResult& result, const RunContext& context) {
   if (!found_nothing(result.outcome()) || !is_provable(attempt, options_.low_effort_depth)) return nullptr;
   if (const Certificate* found = prove_low(attempt, context)) return found;
   if (!is_pair(attempt) || !is_provable(attempt, options_.medium_effort_depth)) return nullptr;
   const PartId a = attempt.moving.front().part, b = attempt.fixed.front().part;
   if (const Certificate* found = prove_pair(a, b, ProofEffort::medium, context)) return found;
-  // A pair that comes apart costs a proof of high effort most of all; a deeper search may still find how.
+  // A proof of high effort costs most for pairs that can be separated; a deeper search may still find a path.
   const bool last = attempt.max_depth == 0 || result.outcome() == Outcome::exhausted;
   return last ? prove_reduced(a, b, context) : nullptr;
 }

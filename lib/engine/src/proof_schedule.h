@@ -1,4 +1,4 @@
-/// When which immobility prover is asked. The same for every pair of sequence and path planner.
+/// Decides when each immobility prover is asked, independent of the sequence and path planners.
 #pragma once
 
 #include <atomic>
@@ -19,35 +19,34 @@
 
 namespace dismantle {
 
-/// Asks provers and remembers what they say. An answer depends on nothing but the question, so it does not matter which
-/// thread finds it, and when. Safe to use from several threads. Certificates live as long as the schedule.
+/// Asks provers and remembers their answers. An answer depends only on the question, so it does not matter which thread
+/// finds it or when. Safe to use from several threads. Certificates live as long as the schedule.
 ///
-/// A proof comes when the search that it may spare has cost about as much as it will, or has found nothing: most
-/// searches find a way before.
-/// - Trivial: when the schedule is made, about all pairs that overlap when assembled.
+/// A proof is tried once the search that it may save has cost about as much as the proof will, or has found no path;
+/// most searches find a path before.
+/// - Trivial: on construction, about all pairs that overlap when assembled.
 /// - Low: in attempts of some depth or without limit, about the moving against the fixed parts.
-/// - Medium: in deep attempts of one part against one other. High: after them, only where no deeper attempt can follow,
-///   for the reduced tolerance.
-/// - All: at the end of the run, about parts that are left: each and the only one that it touched, a few together.
+/// - Medium: in deep attempts of one part against one other. High: after these, with the reduced tolerance, only if no
+///   deeper attempt can follow.
+/// - All: at the end of the run, about each remaining part and the only part that it touched, or about a few together.
 ///
-/// What is not proved with the reduced tolerance is not proved with all of it either, and takes less time.
-/// With a deadline, a proof of high effort gets no more than a share of the time that is left: others wait for their
-/// turn.
+/// Proofs of high effort try the reduced tolerance first: it takes less time, and what is not proved with it is not
+/// proved with the full tolerance either. With a deadline, each gets only a share of the remaining time, because others
+/// wait for their turn.
 class ProofSchedule {
  public:
   /// References must outlive the schedule. `context` is used for the trivial proofs, on its threads.
   ProofSchedule(const Assembly& assembly, const Verifier& verifier, std::vector<NamedProver> provers,
                 const ProofOptions& options, const RunContext& context);
 
-  /// A pair of one that moves and one that is fixed, locked by their overlap; of several leaving parts, when each of
-  /// them is in such a pair.
+  /// Proof that the overlap of a moving and a fixed part locks them, or null. With Goal::any_of: only if each listed
+  /// part is locked to another part.
   const Certificate* locked(const Attempt& attempt) const;
-  /// What is known before a search. `attempt` is canonical.
+  /// A proof that is known before a search, or null. `attempt` is canonical.
   const Certificate* before(const Attempt& attempt) const;
-  /// Proofs that are tried while a search goes on, in order, each at that number of steps and state
-  /// checks. Empty: none.
+  /// Proofs to try during a search, in order, each at its number of steps and state checks.
   std::vector<SearchPause> during(const Attempt& attempt, const RunContext& context);
-  /// What is proved because a search found nothing.
+  /// Tries proofs after a search that found no path.
   const Certificate* after(const Attempt& attempt, const PathResult& result, const RunContext& context);
   /// At the end of a run: why `part` is left, together with the others of `left`, if that can be proved.
   const Certificate* at_last(PartId part, const std::vector<PartId>& blocked_by, const std::vector<PartId>& left,
@@ -55,11 +54,11 @@ class ProofSchedule {
   /// As PathOracle::prove.
   const Certificate* prove(const SeparationQuestion& question, const RunContext& context);
 
-  /// That two parts cannot be separated, by provers of low effort first, up to `most`, for all of the tolerance.
+  /// Proof that two parts cannot be separated, for the full tolerance; by provers of low effort first, up to `most`.
   const Certificate* prove_pair(PartId a, PartId b, ProofEffort most, const RunContext& context);
 
   PartMemo& memo() { return memo_; }
-  /// Time that proofs took, on all threads, those computed ahead included.
+  /// Time of all proofs, summed over threads, speculative ones included.
   double seconds() const { return static_cast<double>(nanoseconds_.load()) * 1e-9; }
 
  private:
@@ -82,7 +81,7 @@ class ProofSchedule {
   const ProofOptions options_;
   std::vector<Prover> provers_;
   PartMemo memo_;
-  std::mutex mutex_;  // of the maps; answers are computed without it
+  std::mutex mutex_;  // guards the maps; answers are computed without it
   std::map<SeparationQuestion, ComputedOnce<Answer>> answers_;
   std::map<SceneDigest, ComputedOnce<Answer>> placed_answers_;
   std::vector<const Certificate*> locks_;

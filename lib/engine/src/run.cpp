@@ -1,4 +1,4 @@
-// The main job: prepares, asks the sequence planner, books what it removes.
+// Planning: prepares, asks the sequence planner, records its removals.
 #include "dismantle/engine/run.h"
 
 #include <fmt/format.h>
@@ -52,15 +52,15 @@ PartId part_named(const Assembly& assembly, const std::string& name) {
   throw InputError(assembly.source, fmt::format("has no part '{}'; its parts are {}", name, names));
 }
 
-/// Books each removal as it comes and passes the plan so far on.
+/// Records each removal as it comes and passes on the plan so far.
 class RemovalRecorder final : public SequenceObserver {
  public:
   RemovalRecorder(PlanBuilder& builder, const std::function<void(const Plan&)>& on_step, const RunContext& context)
       : builder_(builder), on_step_(on_step), context_(context) {}
 
-  /// Throws std::logic_error at a removal that does not hold; the sequence planner is stopped by it.
+  /// Throws std::logic_error for an invalid removal, which stops the sequence planner.
   void removed(const Removal& removal, std::size_t /*parts_left*/) override {
-    if (!problem_.empty()) throw std::logic_error(problem_);  // after an error that was caught and ignored
+    if (!problem_.empty()) throw std::logic_error(problem_);  // the planner ignored an earlier error
     try {
       builder_.record(removal);
     } catch (const std::logic_error& e) {
@@ -70,7 +70,7 @@ class RemovalRecorder final : public SequenceObserver {
     if (!on_step_) return;
     try {
       on_step_(builder_.plan());
-    } catch (const std::exception& e) {  // the run is worth more than one saving; the next step tries again
+    } catch (const std::exception& e) {  // the run continues; the next step tries again
       context_.log(LogLevel::error, fmt::format("the plan so far could not be passed on: {}", e.what()));
     }
   }
@@ -128,7 +128,7 @@ SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, R
   return result;
 }
 
-/// Proofs for parts that are left and have none, the same whichever planners were used. A proof explains more than the
+/// Tries proofs for remaining parts that have none, independent of the planners used. A proof explains more than the
 /// message of a search does.
 void prove_left(std::vector<Unsolved>& unsolved, const PlanBuilder& builder, Oracle& oracle,
                 const ProofOptions& options, const RunContext& context) {
@@ -151,7 +151,7 @@ void prove_left(std::vector<Unsolved>& unsolved, const PlanBuilder& builder, Ora
   }
 }
 
-/// Where a part that is left touches others at its best pose, as the simulator sees it.
+/// Contacts of a remaining part with others at its best pose, from the simulator.
 ContactsOf contacts_of(const Assembly& assembly, const DeferredSimulator& simulator, const PlanBuilder& builder,
                        const RunContext& context) {
   if (!simulator.capabilities().contacts) return {};
@@ -177,7 +177,7 @@ ContactsOf contacts_of(const Assembly& assembly, const DeferredSimulator& simula
   };
 }
 
-/// What the sequence planner says of the parts that are left, completed and without what cannot be.
+/// The sequence planner's reasons for the remaining parts, completed, without impossible claims.
 std::vector<Unsolved> reasons(const SequenceResult& said, const std::vector<PartId>& left) {
   const auto is_left = [&left](PartId id) { return std::find(left.begin(), left.end(), id) != left.end(); };
   std::vector<Unsolved> result;
@@ -229,7 +229,7 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
   whole.deadline = context.deadline;
   const Verifier verifier(assembly, options.verify, whole);
   const PreparedAssembly nothing;
-  if (only_one) own.threads = 1;  // there is nothing to work ahead on, and the planner's progress gets through
+  if (only_one) own.threads = 1;  // there are no speculative questions, and the planner's progress is shown
   Oracle oracle(assembly, nothing, setup, &simulator, options, verifier, own);
   PlanBuilder builder(assembly, oracle, options, setup.path_planner_id);
   RemovalRecorder recorder(builder, on_step, own);
@@ -278,7 +278,7 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
   };
   std::vector<std::vector<std::size_t>> needed;
   const auto find_needed = [&] { needed = needed_steps(builder.recorded(), assembly, verifier, own); };
-  // Neither uses a result of the other.
+  // The two are independent.
   parallel_for(
       2, own.executor.get(), [&](std::size_t k) { k == 0 ? put_together() : find_needed(); }, [] { return false; });
   builder.set_needed(needed);
@@ -289,7 +289,7 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
   result.plan = builder.plan();
   result.counts = oracle.counts();
   result.planner_counts = oracle.planner_counts();
-  simulator.rethrow_failure();  // of a transfer
+  simulator.rethrow_failure();  // failure during a transfer
   result.prepare_seconds = simulator.seconds();
   result.plan_seconds = seconds_since(begin) - result.prepare_seconds;
   result.proof_seconds = oracle.proof_seconds();

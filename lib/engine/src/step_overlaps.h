@@ -1,4 +1,4 @@
-/// Which steps make use of an overlap that the parts have when assembled, and how deep they are along the step.
+/// Which steps use an overlap that parts have when assembled, and how deep the parts are along the step.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,8 @@
 
 namespace dismantle {
 
-/// [k]: the pairs of step k that may be in each other by more than `least` (assembly units) and move relative to each
-/// other, each with the deepest that it is along the step. Steps from the one on at which `context` says to stop have
-/// none.
+/// [k]: the pairs that step k moves relative to each other and that may overlap by more than `least` (assembly units),
+/// with their largest depth along the step. Empty from the step at which `context` asks to stop.
 std::vector<std::vector<PlanStepOverlap>> step_overlaps(const std::vector<RecordedStep>& steps,
                                                         const Assembly& assembly, const Verifier& verifier,
                                                         double least, const RunContext& context);

@@ -70,7 +70,7 @@ TEST(DeferredSimulator, PreparesOnceForAllThreads) {
   }
 }
 
-/// The error ends the run at the first search, whatever the sequence planner makes of it; what was done is in the plan
+/// The error ends the run at the first search, even if the sequence planner ignores it; earlier steps are in the plan
 /// that was passed on.
 TEST(DeferredSimulator, AFailureEndsTheRun) {
   int asked = 0;

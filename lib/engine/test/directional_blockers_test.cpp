@@ -1,4 +1,4 @@
-// Cached blockers of parts along directions, against asking each pair anew.
+// Cached blockers of parts along directions, compared with a new query for each pair.
 #include "directional_blockers.h"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST(DirectionalBlockers, WhatMayNotMeetNeverDoes) {
   EXPECT_GT(apart, 500);
 }
 
-/// Parts leave one by one, now and then one is moved, now and then units leave together.
+/// Parts leave one by one; sometimes a part is moved, sometimes units leave together.
 TEST(DirectionalBlockers, AsIfEachPairWereAskedAnew) {
   Rng rng(7);
   for (int trial = 0; trial < 30; ++trial) {
@@ -114,7 +114,7 @@ TEST(DirectionalBlockers, AsIfEachPairWereAskedAnew) {
   }
 }
 
-/// What is remembered of a group while its parts leave does not change what is chosen; told to stop, nothing is.
+/// Data cached while parts leave a group does not change the choice. When stopped, nothing is chosen.
 TEST(ForcedMotions, AQuickMotionIsThatOfAGroupSeenAnew) {
   Rng rng(11);
   RunContext stopped;

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 using fake::Box;
 using NamedBoxes = std::vector<std::pair<std::string, std::vector<Box>>>;
 
-/// Six walls around a room from `lo` to `hi`; each of its own thickness.
+/// Six walls around the space from `lo` to `hi`, each with its own thickness.
 std::vector<Box> cage(Rng& rng, const Vector3d& lo, const Vector3d& hi) {
   std::vector<Box> walls;
   for (int axis = 0; axis < 3; ++axis)
@@ -32,7 +32,7 @@ std::vector<Box> cage(Rng& rng, const Vector3d& lo, const Vector3d& hi) {
   return walls;
 }
 
-/// A cage with one or two blocks side by side in it, none of which touches anything.
+/// A cage with one or two blocks side by side inside, which touch nothing.
 NamedBoxes blocks_in_a_cage(Rng& rng) {
   NamedBoxes parts;
   Vector3d lo = Vector3d::Zero(), hi = lo;
@@ -52,7 +52,7 @@ double depth_in(const Vector3d& x, const Box& box) {
   return std::max(0.0, std::min((x - box.lo).minCoeff(), (box.hi - x).minCoeff()));
 }
 
-/// The deepest of points on the faces of `of`, moved by `shift`, in `in`.
+/// The largest depth in `in` of points on the faces of `of`, moved by `shift`.
 double deepest(const Box& of, const Vector3d& shift, const Box& in) {
   constexpr int kPoints = 24;  // along an edge
   double most = 0;
@@ -70,7 +70,7 @@ double deepest(const Box& of, const Vector3d& shift, const Box& in) {
   return most;
 }
 
-/// The same both ways over a whole step; the parts move without turning, from pose to pose in straight lines.
+/// The same for both parts over a whole step, in which parts move in straight lines from pose to pose without rotation.
 double brute_force(const PlanStep& step, const NamedBoxes& parts, const std::map<std::string, Vector3d>& others) {
   constexpr int kInstants = 8;  // from pose to pose
   double most = 0;

@@ -1,4 +1,4 @@
-// Samples whose parts are pressed, clipped and cut into each other: what a forced step says of its depth, against
+// Samples whose parts are pressed, clipped and cut into each other: the stated depth of a forced step, compared with
 // points all over the surfaces at many instants.
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A part with points all over its surface, of about the same distance, vertices included.
+/// A part with points all over its surface, about equally spaced, vertices included.
 struct Sampled {
   std::vector<geometry::Solid> solids;
   std::vector<Vector3d> points;

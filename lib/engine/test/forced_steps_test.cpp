@@ -1,4 +1,4 @@
-// Steps that are forced, last of all: when, how deep, and what the plan says of them.
+// Forced steps as a last resort: when they are made, how deep they cut in, and how the plan states them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,7 +46,8 @@ TEST(ForcedSteps, WhatIsStuckIsTakenOutWhereItCutsInLeast) {
   EXPECT_TRUE(r.plan.unsolved.empty());
   const auto& forced = r.plan.disassembly.front().forced;
   ASSERT_TRUE(forced);
-  // A plate 0.2 thick through walls 0.1 thick: broadside or edgewise, no way out is less than half the plate deep.
+  // A plate 0.2 thick through walls 0.1 thick: broadside or edgewise, each way out cuts in by at least half of the
+  // plate.
   EXPECT_NEAR(forced->depth, 0.1, 0.1 * 0.1 + 0.01);
   EXPECT_EQ(forced->assembled, 0);
   EXPECT_FALSE(forced->reason.empty());
@@ -56,7 +57,7 @@ TEST(ForcedSteps, WhatIsStuckIsTakenOutWhereItCutsInLeast) {
   EXPECT_EQ(c.forced, 1u);
 }
 
-/// The planner had no time for proofs; the pair that is cut is asked about all the same.
+/// The planner had no time for proofs; provers are still asked about the pair that is cut.
 TEST(ForcedSteps, ThePairThatIsCutIsAskedAboutAndItsProofIsCited) {
   for (const bool proves : {true, false}) {
     int asked = 0;
@@ -183,7 +184,7 @@ TEST(ForcedSteps, ConstraintsHold) {
   EXPECT_EQ(r.plan.forced_steps(), 0u);
 }
 
-/// What is behind blocks in a displaced group is asked for and answered in the group's own numbers and frame.
+/// In a displaced group, questions and answers use the group's own ids and frame.
 TEST(ForcedSteps, AfterAForcedStepADisplacedGroupIsPlannedAsAnyOther) {
   Assembly assembly = box_and_row(2);
   const auto steps = [&](const Assembly& a, PathOracle& oracle, SequenceObserver& observer, RunContext& context) {

@@ -1,4 +1,4 @@
-// Laws of the layout: nothing overlaps, large things come first and lie nearest, the same boxes give the same layout.
+// Laws of the layout: nothing overlaps, large boxes are placed first and nearest, the same boxes give the same layout.
 #include "dismantle/engine/layout.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ Aabb shifted(Aabb box, const Vector3d& way) {
   return box;
 }
 
-/// Way between the shadows of two boxes on the plane, along its axes.
+/// Distance between the projections of two boxes on the plane, along its axes.
 double apart(const Aabb& a, const Aabb& b, int up) {
   double most = -1e300;
   for (int axis = 0; axis < 3; ++axis)
@@ -72,7 +72,7 @@ TEST(Layout, OfEqualShapesTheLargerLieNearer) {
     boxes.back().extend(Vector3d::Constant(0.5 + 0.5 * ((7 * i) % 12)));
   }
   const auto shifts = lay_out(boxes, {base}, Up::z, 0.5);
-  // Whatever was placed before does not depend on what is smaller: leaving small ones out changes nothing.
+  // The position of a box does not depend on smaller ones: leaving small boxes out changes nothing.
   std::vector<std::size_t> order(boxes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
@@ -88,8 +88,8 @@ TEST(Layout, OfEqualShapesTheLargerLieNearer) {
     EXPECT_NEAR(apart(shifted(boxes[order[k]], shifts[order[k]]), base, 2), 0.5, 1e-6);
 }
 
-/// Law: each box lies at the free place that is nearest to the middle of what it lies around, by brute force over all
-/// edges in either coordinate.
+/// Law: each box lies at the free position nearest to the centre of the box it lies around; brute force over all edges
+/// in both coordinates.
 TEST(Layout, EachLiesAtTheNearestFreePlace) {
   Rng rng(3);
   constexpr double kGap = 0.3, kRounding = 1e-6;
@@ -128,7 +128,7 @@ TEST(Layout, EachLiesAtTheNearestFreePlace) {
         return least;
       };
       const Aabb placed = shifted(boxes[i], shifts[i]);
-      // Between two that lie exactly one box apart there is room or not, by rounding.
+      // Rounding decides whether a box fits between two that are exactly one box apart.
       const double distance = (placed.lo.head<2>() - corner_of(middle)).norm();
       EXPECT_GE(distance, nearest(kGap) - kRounding);
       EXPECT_LE(distance, nearest(kGap + kRounding) + 10 * kRounding);

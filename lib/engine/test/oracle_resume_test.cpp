@@ -24,13 +24,13 @@ Attempt without(Attempt attempt, PartId out) {
 
 double length(const AttemptResult& answer) { return answer.result.stats.extra.at("length"); }
 
-/// How many searches it took to come there, and a number drawn by each.
+/// The number of searches so far, and a random number drawn by each.
 struct Chain final : SearchState {
   int length = 0;
   double drawn = 0;
 };
 
-/// Never finds anything, and keeps what it had.
+/// Never finds a path, and keeps its state.
 PathResult in_vain(const PathQuery& query, RunContext& context) {
   const auto* before = dynamic_cast<const Chain*>(query.resume_from);
   auto chain = std::make_shared<Chain>();
@@ -58,7 +58,7 @@ TEST(OracleResume, TheSameAttemptAgainHasTheSameAnswer) {
   const AttemptResult& two = s.ask(resuming(s.assembly, 0, 2));
   EXPECT_EQ(&s.ask(resuming(s.assembly, 0, 2)), &two);
   EXPECT_EQ(s.oracle->counts().memoised, 2u);
-  // What it resumes is part of the question: this goes on from the last one.
+  // The resumed search is part of the question: this one resumes the last one.
   const AttemptResult& one_after_two = s.ask(resuming(s.assembly, 0, 1));
   EXPECT_NE(&one_after_two, &one);
   EXPECT_EQ(length(one_after_two), 3);
@@ -84,7 +84,7 @@ TEST(OracleResume, WhereNothingWasKeptItIsTheQuestionFromTheStart) {
   EXPECT_EQ(&s.ask(fake::leave(s.assembly, 0, 2)), &deeper);
 }
 
-/// Of several the last is resumed that had at least the fixed parts of now, where they are now.
+/// Resumes the latest of several searches that had at least the present fixed parts at their present poses.
 TEST(OracleResume, OnlyStatesThatCanStillBeReachedAreTakenOver) {
   Rig s(fake::row(4), fake::setup(in_vain));
   const Attempt all = resuming(s.assembly, 0, 1);

@@ -71,7 +71,7 @@ TEST(Oracle, APlannerCannotTalkAPathThroughAWall) {
   }
 }
 
-/// A path that was accepted for one attempt is no answer to another.
+/// A path accepted for one attempt does not answer another.
 TEST(Oracle, APathThatWasVerifiedForAnotherAttemptIsRefused) {
   std::optional<VerifiedPath> kept;
   const auto keeps = [&kept](const PathQuery& q, RunContext&) {
@@ -167,7 +167,7 @@ TEST(Oracle, WhatPluginsThrowBecomesAnOutcome) {
   EXPECT_NE(t.ask(leave(t.assembly, 0)).result.message.find("no licence"), std::string::npos);
 }
 
-/// Whether the run was stopped meanwhile or not: a wrong path has one outcome.
+/// A wrong path has the same outcome, whether or not the run was stopped meanwhile.
 TEST(Oracle, AFalseClaimIsAFalseClaimHoweverLate) {
   for (const bool claims_start : {false, true}) {
     const auto claims = [=](const PathQuery& q, RunContext& context) {
@@ -234,7 +234,7 @@ TEST(Oracle, NonsenseAboutBlockersIsDropped) {
   EXPECT_TRUE(r.result.best_pose.empty());
 }
 
-/// Two blocks in a tube go up, each by its own way: the first by 0.1.
+/// Two blocks in a tube move up by different distances: the first by 0.1.
 PathResult each_up(const PathQuery& q, double second) {
   Path path = fake::straight(q.scene, {0, 0, 0.1});
   path[1][1].t.z() = second;

@@ -1,4 +1,4 @@
-// What the oracle does not do twice, what it does ahead and on several threads.
+// What the oracle does only once, what it does speculatively, and what it does on several threads.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -174,7 +174,7 @@ TEST(Oracle, AnswersDependNeitherOnOrderNorOnThreads) {
     }
 }
 
-/// How many attempts are being made, and were at most.
+/// The number of attempts in progress, and its maximum.
 struct Crowd {
   std::atomic<int> now{0}, most{0};
   void enter() {
@@ -219,7 +219,7 @@ TEST(Oracle, LeavesAThreadToTheAskerWhoIsNotWaiting) {
   EXPECT_EQ(crowd.most, 2);
 }
 
-/// One that may be used by all threads is made once and used by them at the same time; others are each thread's own.
+/// A concurrent planner is created once and used by all threads at the same time; otherwise each thread has its own.
 TEST(Oracle, AConcurrentPlannerServesAllThreads) {
   for (const bool concurrent : {true, false}) {
     std::atomic<int> made{0};

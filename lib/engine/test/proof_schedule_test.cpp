@@ -1,4 +1,4 @@
-// When provers are asked, and what an answer does to an attempt.
+// When provers are asked, and how an answer affects an attempt.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -95,7 +95,7 @@ TEST(ProofSchedule, LowEffortComesAfterSearchesOfSomeDepth) {
   }
 }
 
-/// A planner that finds a way when it may spend `needed` steps; told apart by how often it was given less.
+/// A planner that finds a path if it may spend `needed` steps; counts how often it was given less.
 auto spending(std::uint64_t needed, int& cut_short) {
   return [needed, &cut_short](const PathQuery& query, RunContext& context) {
     if (query.budget.max_steps == 0 || query.budget.max_steps >= needed) return fake::push(query, context);
@@ -223,7 +223,7 @@ TEST(ProofSchedule, SeveralPartsThatAreLeftAreAskedAboutTogether) {
   }
 }
 
-/// With a deadline, no proof of high effort may take the time that all others wait for.
+/// With a deadline, no proof of high effort may use up the time of all others.
 TEST(ProofSchedule, ADeadlineIsSharedAndProofsOfHighEffortGetTheirShare) {
   for (const double share : {0.1, 0.5}) {
     double high_left = 0, low_left = 0;

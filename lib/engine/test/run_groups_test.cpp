@@ -1,4 +1,4 @@
-// What runs book: groups, parts that are left part-way, and nothing that the oracle did not allow.
+// What runs record: groups, intermediate placements, and nothing that the oracle did not accept.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -153,7 +153,7 @@ TEST(Run, OneLeavesAndTheOtherStaysWhereItWasMoved) {
   }
 }
 
-/// Lifts blocks by bits, in the order given; the last bit of a block brings it out.
+/// Lifts blocks in several moves, in the order given; the last move of a block separates it.
 RunResult in_bits(const std::vector<PartId>& order) {
   const auto bits = [&](const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer, RunContext& c) {
     SequenceResult result;

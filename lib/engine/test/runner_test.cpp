@@ -190,7 +190,7 @@ TEST(Run, APlateNeverLeavesAClosedBox) {
   EXPECT_EQ(r.plan.unsolved[0].blocked_by, (std::vector<std::string>{"box"}));
 }
 
-/// What comes out with one action needs no proof that it cannot; what does not is asked about all the same.
+/// Provers are not asked about parts that leave with one action, but about those that do not.
 TEST(Run, OnePartIsSearchedForBeforeItIsProvedHeld) {
   for (const auto& [assembly, part, solved] :
        {std::tuple(fake::tube_with_blocks(1), "block1", true), std::tuple(fake::closed_box(), "plate", false)}) {

@@ -1,4 +1,4 @@
-// What the plan says of parts that are left: what was tried, and where they touch others at their best pose.
+// What the plan says of parts that are left: the attempts, and where they touch others at their best pose.
 #include <gtest/gtest.h>
 
 #include "dismantle/engine/run.h"

@@ -14,8 +14,8 @@
 namespace dismantle {
 namespace {
 
-/// Where handlers of signals run (SA_ONSTACK) in a thread whose own stack may be what has overflowed. Without one, such
-/// a thread ends the process before any handler can say why.
+/// Stack for signal handlers (SA_ONSTACK) in a thread whose own stack may have overflowed. Without it, such a thread
+/// ends the process before a handler can report the reason.
 class SignalStack {
  public:
   SignalStack() {
@@ -43,7 +43,7 @@ struct Executor::Task {
   std::function<void()> work;
   State state = State::queued;
   bool awaited = false;     // by a thread that has released its slot
-  bool hands_slot = false;  // to that thread, before anybody else can take it
+  bool hands_slot = false;  // passes its slot directly to that thread
   std::exception_ptr error;
 };
 
@@ -60,7 +60,7 @@ struct Executor::Pool {
   bool stop = false;
   std::vector<std::jthread> helpers;
 
-  // All of these with the mutex locked.
+  // These are called with the mutex locked.
 
   std::size_t queued() const { return queues[0].size() + queues[1].size() + queues[2].size(); }
   bool has_work() const { return slots_taken < threads && queued() > 0; }
@@ -69,7 +69,7 @@ struct Executor::Pool {
   void wake_helper() {
     if (!has_work() || stop) return;
     if (asleep > 0) slot_or_task.notify_one();
-    // Twice as many helpers as slots, since helpers may block: they wait for tasks of each other.
+    // Up to twice as many helpers as slots, because helpers may block while they wait for each other's tasks.
     if (std::min<std::size_t>(queued(), threads - slots_taken) > asleep && helpers.size() < 2 * std::size_t{threads})
       helpers.emplace_back([this] { help(); });
   }
@@ -86,7 +86,7 @@ struct Executor::Pool {
     return task;
   }
 
-  /// Waits for the task, and calls `poll` every so often. Returns what the task threw.
+  /// Waits for the task and calls `poll` at intervals of `every`. Returns what the task threw.
   std::exception_ptr wait_for(Task& task, std::chrono::milliseconds every, const std::function<void()>& poll) {
     std::unique_lock lock(mutex);
     const auto done = [&task] { return task.state == Task::State::done; };
@@ -103,7 +103,7 @@ struct Executor::Pool {
     return task.error;
   }
 
-  // Without it.
+  // This one is called without it.
 
   void help() {
     const SignalStack stack;
@@ -122,7 +122,7 @@ struct Executor::Pool {
       } catch (...) {
         task->error = std::current_exception();  // rethrown by wait()
       }
-      task->work = nullptr;  // and what it holds
+      task->work = nullptr;  // frees what it captured
       lock.lock();
       task->state = Task::State::done;
       task->hands_slot = task->awaited;
@@ -164,8 +164,8 @@ void Executor::TaskHandle::wait() {
 }
 
 void Executor::TaskHandle::wait(const RunContext& context, const CancelToken& cancel) {
-  // The caller's flag and deadline cannot wake a sleeper, so they are polled. Affects how soon an interruption is
-  // noticed, never a result.
+  // The caller's flag and deadline cannot wake a sleeper, so they are polled. The interval affects how soon an
+  // interruption is noticed, never a result.
   const auto poll = [&] {
     if (context.should_stop()) cancel.cancel();
   };

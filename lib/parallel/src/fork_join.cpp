@@ -70,7 +70,7 @@ void ForkJoin::operator()(const std::function<void()>& first, const std::functio
   try {
     first();
   } catch (...) {
-    error = std::current_exception();  // rethrown below, when the helper is done with what it was lent
+    error = std::current_exception();  // rethrown below, after the helper has finished with `second`
   }
   wait_until(helper_->done, call);
   const std::exception_ptr second_error = std::exchange(helper_->error, nullptr);

@@ -1,4 +1,4 @@
-// A value that several threads want.
+// A value that several threads ask for.
 #include "dismantle/computed_once.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST(ComputedOnce, IsTheSameForAllThreads) {
   }
 }
 
-/// The first few get nothing, or fail: each for itself.
+/// The first few calls return nothing or throw, each only for its own caller.
 TEST(ComputedOnce, WhereNothingIsComputedTheNextTriesAgain) {
   for (int trial = 0; trial < 50; ++trial) {
     ComputedOnce<int> value;

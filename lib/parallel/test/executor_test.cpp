@@ -48,7 +48,7 @@ TEST(Executor, EachTaskRunsOnceUnlessItIsWithdrawn) {
   }
 }
 
-/// Destroying a handle leaves no task that could still touch what it referred to.
+/// After a handle is destroyed, its task no longer accesses anything.
 TEST(Executor, TheHandleOutlivesTheTask) {
   Rng rng(8);
   Executor executor(3);
@@ -111,7 +111,7 @@ TEST(Executor, AThreadThatWaitsReleasesItsSlot) {
   other.wait();
 }
 
-/// A thread that waits takes over the slot of the task: at no time do more run than there are slots, though tasks stand
+/// A thread that waits takes over the slot of the task: never do more threads run than there are slots, even with tasks
 /// ready to take each slot that becomes free.
 TEST(Executor, TheSlotOfATaskIsHandedToTheThreadThatWaitsForIt) {
   Executor executor(2);

@@ -69,7 +69,7 @@ TEST(SpeculativeCache, ComputesAheadWhatIsWantedAndEachValueOnce) {
   }
 }
 
-/// Of a sequence nothing is computed after a value that ends it, and nothing before those before it.
+/// In a sequence, nothing is computed after a value that ends it, or before the preceding values are known.
 TEST(SpeculativeCache, SequencesAreComputedInOrderUntilTheirEnd) {
   Rng rng(7);
   for (int trial = 0; trial < 50; ++trial) {
@@ -98,7 +98,7 @@ TEST(SpeculativeCache, SequencesAreComputedInOrderUntilTheirEnd) {
   }
 }
 
-/// Computations that end only when they are told to.
+/// Computations that end only when cancelled.
 Cache::Request endless(int key, std::atomic<int>& begun) {
   return {key, [&begun](const RunContext& context) -> long {
             ++begun;

@@ -45,7 +45,7 @@ std::vector<std::uint32_t> sharp_edges(const ShadedMesh& mesh) {
       edges.push_back({lo, hi});
     }
   std::ranges::sort(edges);
-  std::map<std::array<float, 6>, std::array<std::uint32_t, 2>> sharp;  // both sides of an edge stand at one place
+  std::map<std::array<float, 6>, std::array<std::uint32_t, 2>> sharp;  // both sides of an edge have the same positions
   for (std::size_t i = 0; i < edges.size();) {
     std::size_t end = i + 1;
     while (end < edges.size() && edges[end] == edges[i]) ++end;
@@ -84,7 +84,7 @@ PageJson shape_json(const Part& part, const Normalization& units, const Eigen::V
 
 PageJson page_point(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
-/// Shapes, and where each part of the plan has which.
+/// The shapes, and the shape and pose of each part of the plan.
 PageJson geometry_json(const Plan& plan, const Assembly& assembly) {
   std::map<std::string, std::size_t> index_of;
   for (std::size_t i = 0; i < assembly.parts.size(); ++i) index_of.emplace(assembly.parts[i].name, i);
@@ -110,7 +110,7 @@ PageJson geometry_json(const Plan& plan, const Assembly& assembly) {
   return {{"parts", std::move(parts)}, {"shapes", std::move(shapes)}};
 }
 
-/// JSON that can stand in a script element, whatever names are in it: `<` occurs in strings only.
+/// Makes JSON safe in a script element, whatever names it has: `<` occurs in strings only.
 std::string for_script(const std::string& json) {
   std::string out;
   out.reserve(json.size() + json.size() / 64);

@@ -15,7 +15,7 @@ namespace {
   throw Error(fmt::format("{}: cannot write: {}", file.string(), std::generic_category().message(error)));
 }
 
-/// Puts the new name on the disk. Where folders cannot be synchronised the file system sees to it itself.
+/// Flushes the new name to disk. File systems whose folders cannot be synchronised do this themselves.
 void sync_folder(const std::filesystem::path& folder) {
   const int fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (fd < 0) return;

@@ -1,4 +1,4 @@
-// What is explained is what the plan says: every part once, lengths in input units, advice that names a key.
+// Explanations match the plan: every part once, lengths in input units, advice that names a key.
 #include "dismantle/plan_io/explain.h"
 
 #include <gtest/gtest.h>

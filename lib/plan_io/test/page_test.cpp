@@ -1,5 +1,4 @@
-// index.html: what stands in the page is the plan and the surfaces, whatever the names; congruent parts share one
-// surface.
+// index.html: the page holds the plan and the surfaces, for any names; congruent parts share one surface.
 #include "dismantle/plan_io/page.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Laws of the plan file: reading what was written gives it back, the same plan gives the same bytes, and no
-// text whatever does worse than an InputError.
+// Laws of the plan file: it round-trips, the same plan gives the same bytes, and malformed
+// text gives an InputError, nothing worse.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Overlaps in plan.json: what is written is read, and what is wrong is named with its place.
+// Overlaps in plan.json: they round-trip, and errors name their location.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -21,7 +21,7 @@ void check_same_files(const Plan& plan, const InputParts& input, const std::stri
                           input.sha256, plan.assembly.sha256));
 }
 
-/// Leaves in `parts` those of the plan.
+/// Removes the parts that are not in the plan.
 void keep_parts_of(const Plan& plan, std::vector<RawPart>& parts, const std::string& source) {
   std::set<std::string> planned, excluded, found;
   for (const auto& part : plan.assembly.parts) planned.insert(part.name);
@@ -42,7 +42,7 @@ std::shared_ptr<const Mesh> moved(const Mesh& mesh, const Normalization& from, c
   return std::make_shared<const Mesh>(std::move(out));
 }
 
-/// Same parts in other units.
+/// Converts the assembly to other units.
 void set_normalization(Assembly& assembly, const Normalization& to) {
   const Normalization from = assembly.normalization;
   if (from.scale == to.scale && from.center == to.center) return;
@@ -66,7 +66,7 @@ void set_normalization(Assembly& assembly, const Normalization& to) {
   assembly.normalization = to;
 }
 
-/// Only of parts that the plan takes for flexible: one that takes them for rigid is held to that.
+/// Recognises only parts that the plan states as flexible. Parts that it states as rigid stay rigid.
 void recognise_flexible_of(const Plan& plan, Assembly& assembly, const RunContext& context) {
   std::vector<std::string> named;
   for (const PlanPart& part : plan.assembly.parts)
@@ -85,7 +85,7 @@ Assembly assembly_of_plan(const Plan& plan, InputParts input, const std::string&
   options.max_hole = plan.assembly.repair.max_hole;
   options.drop_duplicates = false;  // the plan says which parts stay
   options.subdivide = 0;
-  options.flexible = FlexibleParts::declared;  // below: those that the plan names, if they are such
+  options.flexible = FlexibleParts::declared;  // recognised below, only parts that the plan names
   options.max_triangles = std::numeric_limits<std::int64_t>::max();
   PrepareReport report;
   Assembly assembly = prepare_assembly(std::move(input.parts), source, input.sha256, options, context, report);

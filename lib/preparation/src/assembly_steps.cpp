@@ -84,9 +84,9 @@ Dropped find_overlapping(const std::vector<Candidate>& candidates, double max_sh
         for (std::size_t j = 0; j < candidates.size(); ++j)
           if (j != i && box.overlaps(candidates[j].box)) others.push_back(j);
         if (others.empty()) return;
-        Rng rng = Rng(0x6F7665726C6170ull).fork(i);  // of its own: the assembly does not depend on the run's seed
+        Rng rng = Rng(0x6F7665726C6170ull).fork(i);  // separate, so that the assembly does not depend on the run's seed
         std::vector<Eigen::Vector3d> points;
-        // 2000 points tell a share to about 1 %; the number of tries ends it for parts that fill little of their box.
+        // 2000 points give a share to about 1 %; the limit on tries is for parts that fill little of their box.
         for (std::size_t k = 0; k < 800'000 && points.size() < 2000 && !context.should_stop(); ++k) {
           Eigen::Vector3d p;
           for (int d = 0; d < 3; ++d) p[d] = rng.uniform(box.lo[d], box.hi[d]);
@@ -104,7 +104,7 @@ Dropped find_overlapping(const std::vector<Candidate>& candidates, double max_sh
   std::vector<char> gone(candidates.size(), 0);
   Dropped dropped;
   for (;;) {
-    // The worst goes first: that may be all that the others need.
+    // Drop the worst first: the others may then be within the limit.
     std::size_t worst = candidates.size();
     double worst_share = max_share;
     for (std::size_t i = 0; i < candidates.size(); ++i) {

@@ -15,7 +15,7 @@
 
 namespace dismantle {
 
-/// A part on its way: repaired surface and where its report is.
+/// A part during preparation: its repaired surface and the index of its report.
 struct Candidate {
   std::string name;
   std::string file;
@@ -28,7 +28,7 @@ struct Candidate {
   std::string unit;
 };
 
-/// Removes `candidates[i]` from the assembly and writes the reason down.
+/// Candidates to remove from the assembly, with the reasons.
 using Dropped = std::vector<std::pair<std::size_t, std::string>>;  ///< (index, reason), ascending
 
 Dropped find_duplicates(const std::vector<Candidate>& candidates, const RunContext& context);

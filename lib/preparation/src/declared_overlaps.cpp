@@ -18,7 +18,7 @@ PartId part_of(const Assembly& assembly, const std::string& name) {
   throw InputError(assembly.source, fmt::format("has no part '{}', for which an overlap is declared", name));
 }
 
-/// The entry of a pair, made where there is none.
+/// The entry of a pair, created if missing.
 InitialOverlap& entry_of(Assembly& assembly, PartId a, PartId b) {
   if (a > b) std::swap(a, b);
   const auto at = std::lower_bound(

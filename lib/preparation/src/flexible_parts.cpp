@@ -14,8 +14,8 @@ namespace {
 
 using geometry::Strand;
 
-/// Says what a coil and a loop are, as contact.cpp does of contact classes. The numbers are no parameters: a plan is
-/// verified with the same.
+/// Defines coil and loop, as contact.cpp defines the contact classes. The numbers are not parameters, because a plan
+/// must be verified with the same ones.
 std::optional<Flexible> kind_of(const Strand& strand) {
   if (strand.share > 1.05) return std::nullopt;  // more than its volume: a hollow strand is a pipe
   // A loop has no ends, so its strand is all of its volume. Its section is round: that of a hexagon has a roundness of
@@ -27,7 +27,7 @@ std::optional<Flexible> kind_of(const Strand& strand) {
   return std::nullopt;
 }
 
-/// The share of the loop's turns along which its surface is in the other part.
+/// Share of the loop's turns along which its surface is inside the other part.
 double clasped(const Strand& loop, const TriangleBvh& other) {
   double in = 0;
   for (std::size_t k = 0; k < loop.stations.size(); ++k) {

@@ -7,12 +7,12 @@ void PrepareOptions::describe(Schema<PrepareOptions>& s) {
         {.unit = "1",
          .min = 0.0,
          .max = 0.01,
-         .doc = "Vertices on open edges closer than this are one, relative to the diagonal of the part's box; equal "
-                "positions always are. Closed surfaces are never touched. (Appendix B.1, step 2.)"});
+         .doc = "Vertices on open edges closer than this are merged, relative to the diagonal of the part's box; equal "
+                "positions always are. Closed surfaces are never changed. (Appendix B.1, step 2.)"});
   s.add("repair", &PrepareOptions::repair,
         {.unit = "1",
          .doc = "Close T-junctions and small flat holes and drop inner walls of parts that are not watertight, before "
-                "giving them up. The paper drops them without a repair (step 2)."});
+                "excluding them. The paper drops them without a repair (step 2)."});
   s.add("max_hole", &PrepareOptions::max_hole,
         {.unit = "1",
          .min = 0.0,
@@ -40,17 +40,17 @@ void PrepareOptions::describe(Schema<PrepareOptions>& s) {
               "warning."});
   s.add("normalize", &PrepareOptions::normalize,
         {.unit = "1",
-         .doc = "Scale and centre the assembly (step 7). Off: assembly units are the input's own, and all tolerances "
-                "count in them."});
+         .doc = "Scale and centre the assembly (step 7). Off: assembly units are input units, and all tolerances are "
+                "in input units."});
   s.add("size", &PrepareOptions::size,
         {.unit = "unit",
          .min = 0.0,
          .min_open = true,
-         .doc = "Longest edge of the assembly's box after scaling (step 7). Other defaults are made for 10."});
+         .doc = "Longest edge of the assembly's box after scaling (step 7). Other defaults assume 10."});
   s.add("subdivide", &PrepareOptions::subdivide,
         {.unit = "unit",
          .min = 0.0,
-         .doc = "Longest edge of the surface that contact points are taken from (step 9). 0 = as it is."});
+         .doc = "Longest edge of the surface that contact points are taken from (step 9). 0 = unchanged."});
   s.add_choice<FlexibleParts>("flexible", &PrepareOptions::flexible,
                               {{"recognised", FlexibleParts::recognised,
                                 "parts whose shape is that of a spring, an O-ring or a round belt, and that overlap "

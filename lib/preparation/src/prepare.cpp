@@ -251,7 +251,7 @@ class Preparation {
       for (PartId b = a + 1; b < boxes.size(); ++b)
         if (boxes[a].overlaps(boxes[b])) pairs.push_back({a, b, 0});
     const auto& parts = assembly_.parts;
-    std::vector<ComputedOnce<DepthBody>> bodies(parts.size());  // a part that meets many others is made ready once
+    std::vector<ComputedOnce<DepthBody>> bodies(parts.size());  // prepared once for each part
     const auto body = [&](PartId part) -> const DepthBody& {
       return *bodies[part].get(context_, [&] {
         return std::optional<DepthBody>(std::in_place, *parts[part].mesh,
@@ -263,7 +263,7 @@ class Preparation {
         [&](std::size_t i) {
           const DepthBody &a = body(pairs[i].a), &b = body(pairs[i].b);
           const Penetration deepest = deepest_penetration(a, Pose{}, b, Pose{}, exact_to, context_);
-          if (context_.should_stop()) return;  // a lower bound, which the phase does not let out
+          if (context_.should_stop()) return;  // only a lower bound; parallel_phase() will throw
           pairs[i].depth = deepest.depth;
           if (deepest.depth > recorded) pairs[i].place = classify_overlap(a, b, deepest, exact_to).place;
         },

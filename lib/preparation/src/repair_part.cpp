@@ -62,7 +62,7 @@ class PartRepair {
   }
 
  private:
-  /// Between two steps: a part of millions of triangles takes seconds for each.
+  /// Called between two steps: each takes seconds for millions of triangles.
   void go_on() const { stop_if_asked(context_, "repairing parts"); }
 
   template <class... Args>
@@ -94,7 +94,7 @@ class PartRepair {
     return true;
   }
 
-  /// More than rounding can make of a flat surface.
+  /// True if the volume exceeds what rounding gives a flat surface.
   bool has_volume() const { return std::abs(signed_volume(mesh_)) > 1e-12 * std::pow(surface_area(mesh_), 1.5); }
 
   double tolerance() const { return options_.weld * diagonal_; }
@@ -138,7 +138,7 @@ class PartRepair {
     if (o.one_sided) did("part of the surface has only one side, like a Moebius strip");
   }
 
-  /// Tries to make the mesh closed; returns how its edges are then.
+  /// Tries to close the mesh; returns the use of its edges afterwards.
   EdgeUse close(EdgeUse use) {
     if (options_.repair && use.open) {
       if (const std::size_t n = close_t_junctions(mesh_, std::max(tolerance(), 1e-9 * diagonal_))) {

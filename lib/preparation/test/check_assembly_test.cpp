@@ -1,4 +1,4 @@
-// Laws of `dismantle check`: what is there is found, at its place and with its depth; what is not is not reported.
+// Laws of `dismantle check`: each problem is found at its location and with its depth; nothing else is reported.
 #include "dismantle/preparation/check_assembly.h"
 
 #include <gtest/gtest.h>

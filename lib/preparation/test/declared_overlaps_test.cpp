@@ -1,4 +1,4 @@
-// What the user allows: kept for the pair, whatever was measured, and for no other.
+// A depth that the user allows applies to its pair, whatever was measured, and to no other pair.
 #include "dismantle/preparation/declared_overlaps.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// What bends is told by its shape and its contact: springs, seals and round belts are, whatever their size, place and
-// triangles; what is as slender and rigid is not.
+// Flexible parts are recognised by shape and contact: springs, seals and round belts, whatever their size, pose and
+// triangulation, but not rigid parts that are as slender.
 #include "dismantle/preparation/flexible_parts.h"
 
 #include <gtest/gtest.h>

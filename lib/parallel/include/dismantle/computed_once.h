@@ -1,4 +1,4 @@
-/// A value that the first thread that asks for it computes, and all share.
+/// A value computed by the first thread that asks for it and shared by all.
 #pragma once
 
 #include <condition_variable>
@@ -11,13 +11,13 @@
 
 namespace dismantle {
 
-/// A value for several threads. Threads that ask while it is computed wait, with their slots free for those that help
-/// to compute it.
+/// A value for several threads. Threads that ask during the computation wait; meanwhile their slots are free for
+/// threads that help to compute it.
 template <class Value>
 class ComputedOnce {
  public:
-  /// compute() -> std::optional<Value>, called with no lock held. When it returns nothing or throws, the next thread
-  /// that asks or waits tries again. The value stays where it is. Null: the compute() of this call returned nothing.
+  /// compute() -> std::optional<Value> runs with no lock held. If it returns nothing or throws, the next thread that
+  /// asks or waits tries again. The value never moves. Returns null if the compute() of this call returned nothing.
   template <class Compute>
   const Value* get(const RunContext& context, Compute&& compute) {
     std::unique_lock lock(mutex_);

@@ -25,26 +25,26 @@ class DISMANTLE_API Executor {
  public:
   /// The order in which free slots are given to queued tasks; within a priority: first come, first served.
   enum class Priority : char {
-    fork_join,    ///< part of the work of a running thread, which will wait for it
+    fork_join,    ///< part of the work of a running thread, which waits for it
     speculative,  ///< will probably be needed soon
-    idle,         ///< may be needed some time; long
+    idle,         ///< long task that may be needed later
   };
 
   /// Handle of a submitted task. The destructor withdraws the task, or waits for its end. May outlive the executor.
   class DISMANTLE_API TaskHandle {
    public:
-    TaskHandle() = default;  ///< of no task: nothing but assignment and destruction is allowed
+    TaskHandle() = default;  ///< no task: only assignment and destruction are allowed
     TaskHandle(TaskHandle&&) noexcept = default;
     TaskHandle& operator=(TaskHandle&& other) noexcept;
     ~TaskHandle();
-    explicit operator bool() const { return task_ != nullptr; }  ///< false: of no task
+    explicit operator bool() const { return task_ != nullptr; }  ///< false: no task
     /// True: the task was not started, and will not be. False: it is running or done.
     bool withdraw();
     bool done() const;
-    /// Blocks until the task, which was not withdrawn, is done; throws what it threw. One thread at a time. The slot of
-    /// the calling thread is free meanwhile; at the end the caller takes over the slot of the thread that ran the task.
+    /// Blocks until the task is done; throws what it threw. The task must not be withdrawn, and only one thread may
+    /// wait. The caller's slot is free meanwhile; at the end it takes over the slot of the thread that ran the task.
     void wait();
-    /// As wait(); when `context` says to stop, `cancel`, which the task is to obey, is set (within about 5 ms).
+    /// As wait(). When `context` asks to stop, sets `cancel` within about 5 ms; the task must obey it.
     void wait(const RunContext& context, const CancelToken& cancel);
 
    private:
@@ -55,7 +55,7 @@ class DISMANTLE_API Executor {
     std::shared_ptr<Task> task_;
   };
 
-  /// While it exists, the slot of the calling thread is free: for waits on something other than a task.
+  /// Frees the slot of the calling thread while it exists, for waits on something other than a task.
   class DISMANTLE_API BlockingScope {
    public:
     explicit BlockingScope(Executor* executor);  ///< null: nothing happens
@@ -67,8 +67,8 @@ class DISMANTLE_API Executor {
     Executor* executor_;
   };
 
-  /// While it exists, threads that come to a pause_point() wait there: their slots serve the more urgent work of the
-  /// calling thread, which must not wait for such a thread.
+  /// While it exists, threads that reach a pause_point() wait there, so that their slots serve the more urgent work of
+  /// the calling thread. That thread must not wait for them.
   class DISMANTLE_API PauseScope {
    public:
     explicit PauseScope(Executor& executor);
@@ -87,28 +87,28 @@ class DISMANTLE_API Executor {
   Executor& operator=(const Executor&) = delete;
 
   unsigned threads() const;
-  /// `work` must not outlive what it refers to: keep the handle at least as long.
+  /// Everything that `work` refers to must outlive the handle.
   [[nodiscard]] TaskHandle submit(std::function<void()> work, Priority priority);
-  /// For long tasks whose result may turn out not to be needed: blocks, with its slot free, while a PauseScope exists.
+  /// For long tasks whose result may not be needed: blocks while a PauseScope exists; the slot is free meanwhile.
   void pause_point();
 
  private:
   std::shared_ptr<Pool> pool_;
 };
 
-/// For long work that may turn out not to be needed (RunContext::speculative): waits while a thread of the executor
-/// does something more urgent (Executor::PauseScope). Else nothing.
+/// For long speculative work (RunContext::speculative): waits while a thread of the executor does more urgent work
+/// (Executor::PauseScope). Otherwise does nothing.
 DISMANTLE_API void pause_point(const RunContext& context);
 
 namespace detail {
 
-/// The indices of a loop, taken by one thread after the other until stop().
+/// A loop whose indices are handed out to several threads until stop().
 template <class Work, class Stop>
 class SharedLoop {
  public:
   SharedLoop(std::size_t n, Work& work, Stop& stop) : n_(n), work_(work), stop_(stop), errors_(n) {}
   void run() {
-    while (!stop_()) {  // before an index is taken: what is taken is done, so all indices below it are
+    while (!stop_()) {  // checked before taking an index: each taken index is completed, and so are all below it
       const std::size_t i = next_++;
       if (i >= n_) return;
       try {
@@ -133,15 +133,14 @@ class SharedLoop {
 
 }  // namespace detail
 
-/// Calls work(i) for i in [0, n) in ascending order of beginning, on the calling thread and on idle threads of the
-/// executor (null: none), until stop(), which is called from all of them. All indices below one for which work() was
-/// called have been worked on, too. Of several exceptions the one with the lowest index is thrown, after the loop; it
-/// does not end the loop.
+/// Calls work(i) for i in [0, n), begun in ascending order, on the calling thread and on idle threads of the executor
+/// (null: none), until stop(), which all of them call. If work(i) was called, so was work() for all lower indices. An
+/// exception does not end the loop; the one with the lowest index is thrown after the loop.
 template <class Work, class Stop>
 void parallel_for(std::size_t n, Executor* executor, Work&& work, Stop&& stop) {
   detail::SharedLoop loop(n, work, stop);
   {
-    std::vector<Executor::TaskHandle> helpers;  // which are withdrawn when the loop is over before they begin
+    std::vector<Executor::TaskHandle> helpers;  // withdrawn if the loop ends before they begin
     if (executor != nullptr)
       for (std::size_t i = 1; i < std::min<std::size_t>(executor->threads(), n); ++i)
         helpers.push_back(executor->submit([&] { loop.run(); }, Executor::Priority::fork_join));
@@ -152,7 +151,7 @@ void parallel_for(std::size_t n, Executor* executor, Work&& work, Stop&& stop) {
   loop.check();
 }
 
-/// The same on the context's executor. Without one and with RunContext::threads > 1 on a temporary one.
+/// The same on the context's executor, or on a temporary one if there is none and RunContext::threads > 1.
 template <class Work, class Stop>
 void parallel_for(std::size_t n, const RunContext& context, Work&& work, Stop&& stop) {
   if (context.executor || context.threads < 2 || n < 2) return parallel_for(n, context.executor.get(), work, stop);
@@ -160,16 +159,16 @@ void parallel_for(std::size_t n, const RunContext& context, Work&& work, Stop&& 
   parallel_for(n, &own, work, stop);
 }
 
-/// Runs two functions at the same time, again and again. Made for functions so short that waking a thread would take
-/// longer: one thread of the context's executor, once one is idle, is kept until the object is destroyed. As long as
-/// there is none, both functions run on the calling thread.
+/// Repeatedly runs two functions in parallel. Meant for functions so short that waking a thread would take longer: it
+/// keeps the first idle thread of the context's executor until it is destroyed. Until there is one, both functions run
+/// on the calling thread.
 class DISMANTLE_API ForkJoin {
  public:
   explicit ForkJoin(const RunContext& context);
   ~ForkJoin();
   ForkJoin(const ForkJoin&) = delete;
   ForkJoin& operator=(const ForkJoin&) = delete;
-  /// Returns when both are done; then throws what either threw, the first one's before the second's.
+  /// Returns when both are done. Then throws what either threw; an exception of `first` takes precedence.
   void operator()(const std::function<void()>& first, const std::function<void()>& second);
 
  private:

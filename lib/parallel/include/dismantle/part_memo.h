@@ -1,4 +1,4 @@
-/// What is derived from the parts of an assembly, computed once and shared by all users.
+/// Data derived from the parts of an assembly, computed once and shared by all users.
 #pragma once
 
 #include <map>
@@ -15,12 +15,12 @@
 
 namespace dismantle {
 
-/// Values by name and part, for one assembly. A name that depends on more than the part, on a tolerance for instance,
-/// says so. Safe to use from several threads; values stay where they are and never change.
+/// Values by name and part, for one assembly. If a value depends on more than the part, on a tolerance for instance,
+/// its name must say so. Safe to use from several threads; values never move or change.
 class PartMemo {
  public:
-  /// The value, computed by the first caller: compute() -> std::optional<T>, with no lock held. nullptr: this caller's
-  /// compute() gave nothing, for instance because it was told to stop; the next caller tries again.
+  /// The value; the first caller computes it by compute() -> std::optional<T>, with no lock held. nullptr: this
+  /// caller's compute() returned nothing, for instance because it was stopped; the next caller tries again.
   /// @throws std::logic_error when the name stands for a value of another type.
   template <class T, class Compute>
   const T* get(const std::string& name, PartId part, const RunContext& context, Compute&& compute) {
@@ -34,7 +34,7 @@ class PartMemo {
     return static_cast<const T*>(value->data.get());
   }
 
-  /// Puts a value there that is known already. It has to come before anybody asks for it.
+  /// Stores a known value. Must be called before any get() for it.
   template <class T>
   void put(const std::string& name, PartId part, std::shared_ptr<const T> value) {
     entry(name, part).get(RunContext{}, [&] {

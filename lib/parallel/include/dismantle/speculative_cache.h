@@ -19,9 +19,9 @@
 
 namespace dismantle {
 
-/// A value must depend on nothing but its key: then it does not matter which thread computes it and when, and get()
-/// returns the same on any number of threads. `Key` needs operator<. All members may be called from several threads,
-/// but only one at a time may ask for a certain key.
+/// A value must depend only on its key. Then it does not matter which thread computes it or when, and get() returns the
+/// same on any number of threads. `Key` needs operator<. All members may be called from several threads, but only one
+/// thread at a time may ask for the same key.
 template <class Key, class Value>
 class SpeculativeCache {
  public:
@@ -34,17 +34,17 @@ class SpeculativeCache {
     Key key;
     Compute compute;
   };
-  /// Requests in the order in which they will be asked for. Each is of use only when those before it are known and none
-  /// of them ends the sequence; see the constructor.
+  /// Requests in the expected order of get() calls. A request is useful only if those before it are known and none of
+  /// them ends the sequence; see the constructor.
   using Sequence = std::deque<Request>;
 
-  /// `executor` may be null: then nothing is computed before it is asked for. `ends_sequence` tells whether after this
-  /// value the rest of a sequence is not needed; it is called with a lock held. Empty: no value does.
+  /// `executor` may be null: then nothing is computed speculatively. `ends_sequence` returns true for a value after
+  /// which the rest of a sequence is not needed; it is called with a lock held. Empty: no value ends a sequence.
   SpeculativeCache(std::shared_ptr<Executor> executor, Executor::Priority priority,
                    std::function<bool(const Value&)> ends_sequence = {})
       : executor_(std::move(executor)), priority_(priority), ends_sequence_(std::move(ends_sequence)) {}
 
-  /// Cancels what is being computed, and waits for that.
+  /// Cancels running computations and waits for them.
   ~SpeculativeCache() {
     std::unique_lock lock(mutex_);
     stop_ = true;
@@ -60,9 +60,8 @@ class SpeculativeCache {
 
   bool computes_ahead() const { return executor_ && executor_->threads() > 1; }
 
-  /// Replaces the sequences that idle threads work on, the likeliest to be asked for first. A computation that was
-  /// begun, is in none of them and was not asked for is cancelled. Values that were computed stay. `context`: the
-  /// deadline of what is computed ahead.
+  /// Replaces the sequences that idle threads work on, likeliest first. Cancels running computations that are in none
+  /// of them and that no thread has asked for. Computed values stay. `context`: deadline of speculative computations.
   void prefetch(std::deque<Sequence> sequences, const RunContext& context) {
     if (!computes_ahead()) return;
     const std::scoped_lock lock(mutex_);
@@ -74,8 +73,8 @@ class SpeculativeCache {
     submit_tasks();
   }
 
-  /// The value, which is moved out of the cache. On the calling thread if it is neither there nor being computed.
-  /// Throws what the computation throws. When `context` says to stop, what `compute` returned early is returned.
+  /// Moves the value out of the cache. Computes it on the calling thread if it is neither present nor being computed.
+  /// Throws what the computation throws. If `context` asks to stop, returns the incomplete value of `compute`.
   Value get(const Key& key, const Compute& compute, const RunContext& context) {
     std::unique_lock lock(mutex_);
     Entry& entry = entries_[key];
@@ -105,14 +104,14 @@ class SpeculativeCache {
     const std::scoped_lock lock(mutex_);
     return state_of(key) == State::running;
   }
-  /// Values that were computed and not asked for.
+  /// Number of values that were computed and not asked for.
   std::uint64_t unused() const {
     const std::scoped_lock lock(mutex_);
     std::uint64_t count = 0;
     for (const auto& [key, entry] : entries_) count += entry.state == State::computed;
     return count;
   }
-  /// Sequences that may have something left to compute.
+  /// Number of sequences that may have something left to compute.
   std::size_t waiting() const {
     const std::scoped_lock lock(mutex_);
     return wanted_.size();
@@ -127,13 +126,13 @@ class SpeculativeCache {
   struct Entry {
     State state = State::absent;
     bool asked = false;          // a thread waits for it, or computes it
-    bool ends_sequence = false;  // as the value told
-    Task* task = nullptr;        // that computes it; null: the thread that asked does
+    bool ends_sequence = false;  // result of ends_sequence_
+    Task* task = nullptr;        // computes it; null: the asking thread does
     CancelToken cancel;
     std::optional<Value> value;
   };
 
-  // All with the mutex locked; what computes unlocks it meanwhile.
+  // All are called with the mutex locked; computations unlock it meanwhile.
 
   static Value take(Entry& entry) {
     Value value = std::move(*entry.value);
@@ -153,7 +152,7 @@ class SpeculativeCache {
     return false;
   }
 
-  /// The first request that can be computed now. What is known of the sequences is taken off them.
+  /// The first request that can be computed now. Removes known requests from the front of the sequences.
   std::optional<Request> next_request() {
     for (Sequence& sequence : wanted_)
       while (!sequence.empty()) {
@@ -171,8 +170,8 @@ class SpeculativeCache {
     return std::nullopt;
   }
 
-  /// Each task makes one computation, so that more urgent ones come in between, and submits another. As many as there
-  /// are threads: when the thread that asks waits for one of them, another takes its slot.
+  /// Each task runs one computation and then submits another task, so that more urgent ones come in between. There are
+  /// as many as threads: when the asking thread waits for one, another takes its slot.
   void submit_tasks() {
     std::erase_if(tasks_, [](const Task& task) { return task.handle ? task.handle.done() : task.key == nullptr; });
     if (stop_ || !computes_ahead() || wanted_.empty()) return;
@@ -207,7 +206,7 @@ class SpeculativeCache {
     try {
       value = request->compute(context);
     } catch (...) {
-      // Left to get(), which computes it again if it is asked for, and throws the same.
+      // get() computes it again if it is asked for, and throws the same.
     }
     lock.lock();
     entry.state = !value ? State::failed : context.should_stop() ? State::interrupted : State::computed;
@@ -237,7 +236,7 @@ class SpeculativeCache {
     entry.state = context.should_stop() ? State::interrupted : State::taken;
     entry.value.reset();
     note_end(entry, *value);
-    if (entry.state == State::taken) submit_tasks();  // its sequence may go on
+    if (entry.state == State::taken) submit_tasks();  // its sequence may continue
     return std::move(*value);
   }
 
@@ -247,7 +246,7 @@ class SpeculativeCache {
   const Executor::Priority priority_;
   const std::function<bool(const Value&)> ends_sequence_;
   mutable std::mutex mutex_;
-  std::map<Key, Entry> entries_;  // stay where they are
+  std::map<Key, Entry> entries_;  // never move
   std::deque<Sequence> wanted_;
   std::list<Task> tasks_;  // queued, running, and done
   unsigned pending_ = 0;   // tasks that are queued, or running and not about to end

@@ -1,4 +1,4 @@
-/// Ends long work that has no result when it is given up.
+/// Aborts long work that has no partial result.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace dismantle {
 
-/// @throws Error when the context says to stop; `doing` names what is given up.
+/// @throws Error when the context says to stop; `doing` names the aborted work.
 inline void stop_if_asked(const RunContext& context, const char* doing) {
   if (!context.should_stop()) return;
   throw Error(std::string(context.cancel.cancelled() ? "interrupted" : "out of time") + " while " + doing);

@@ -50,7 +50,7 @@ class Advisor {
     return was ? fmt::format("{} (was {:g}{})", name, *was, unit) : name;
   }
 
-  /// Twice what it was, or `otherwise` where that is not known.
+  /// Twice the old value, or `otherwise` if it is not known.
   double more(const std::string& name, double otherwise) const {
     const auto was = number(name);
     return was && *was > 0 ? 2 * *was : otherwise;

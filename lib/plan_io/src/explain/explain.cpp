@@ -44,7 +44,7 @@ LeftPart left_part(const Plan& plan, const PlanUnsolved& u) {
   return out;
 }
 
-/// By outcome and proof; the first part of a reason decides its place among equally large ones.
+/// Groups parts by outcome and proof. Equally large reasons are in the order of their first parts.
 std::vector<LeftReason> reasons_of(const Plan& plan, const ExplainSettings& settings, const std::string& part) {
   std::vector<LeftReason> out;
   for (const PlanUnsolved& u : plan.unsolved) {

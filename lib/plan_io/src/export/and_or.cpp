@@ -53,7 +53,7 @@ std::vector<std::string> part_names(const Plan& plan, const std::vector<std::siz
   return out;
 }
 
-/// All names of a few parts; of many the first ones and how many there are.
+/// All names of a few parts; for many parts, the first names and the count.
 std::string node_label(std::vector<std::string> names) {
   const std::size_t shown = 4;
   const std::size_t count = names.size();

@@ -11,7 +11,7 @@
 namespace dismantle {
 namespace {
 
-/// A cell of a table: no line breaks, nothing that Markdown or HTML would take for its own.
+/// A cell of a table: no line breaks; Markdown and HTML syntax is escaped.
 std::string markdown_text(const std::string& raw) {
   std::string out;
   for (const char c : utf8_text(raw)) {

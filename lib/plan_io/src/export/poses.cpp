@@ -13,7 +13,7 @@
 namespace dismantle {
 namespace {
 
-/// Quoted where RFC 4180 asks for it.
+/// Quoted where RFC 4180 requires it.
 std::string csv_field(const std::string& raw) {
   const std::string text = utf8_text(raw);
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -22,7 +22,7 @@ std::string csv_field(const std::string& raw) {
   return out + '"';
 }
 
-/// Whole microseconds: what the clamp and the shares of a step leave below is noise.
+/// Rounds to microseconds; smaller digits are noise of the computation.
 double shown_time(double seconds) { return std::round(1e6 * seconds) / 1e6; }
 
 std::array<double, 7> numbers_of(const Pose& p) {

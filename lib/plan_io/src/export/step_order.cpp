@@ -10,7 +10,7 @@
 namespace dismantle {
 namespace {
 
-/// A plan of before `after` and `layer` would look as if nothing waited for anything.
+/// Refuses plans without `after` and `layer`, whose steps would look independent.
 void check_order_is_known(const Plan& plan) {
   for (const PlanStep& step : plan.disassembly)
     if (step.layer == 0)

@@ -42,8 +42,8 @@ GlbJson array_of(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w
 }  // namespace
 
 GlbScene::GlbScene(const Plan& plan, const Assembly& assembly, const InputFrame& frame) {
-  // Single precision counts from the middle of the assembly: input far from its origin keeps its digits, since
-  // the root's translation is applied in the viewer's own precision.
+  // Single-precision data is relative to the assembly's centre, so that input far from its origin keeps its digits: the
+  // viewer applies the root's translation in its own precision.
   origin_ = assembly.input_box.empty() ? Eigen::Vector3d(0, 0, 0) : assembly.input_box.center();
   GlbJson root = {{"name", "assembly"}};
   root["translation"] = array_of(Eigen::Vector3d(frame.metres * (frame.to_y_up() * origin_)));

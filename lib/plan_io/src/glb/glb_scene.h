@@ -20,10 +20,10 @@ class GlbScene {
   GlbScene(const Plan& plan, const Assembly& assembly, const InputFrame& frame);
 
   std::size_t node_of(std::size_t part) const { return 1 + part; }
-  /// What node_of(part) has to have as translation and rotation for the part to be at `displacement` (input units; the
-  /// identity is the assembled pose).
+  /// Translation and rotation of node_of(part) that put the part at `displacement` (input units; the identity is the
+  /// assembled pose).
   Pose node_pose(std::size_t part, const Pose& displacement) const;
-  /// Puts a part there for good.
+  /// Places a part permanently.
   void place(std::size_t part, const Pose& displacement);
   GlbBuffer& buffer() { return buffer_; }
   /// The file. `animations`: an array, may be empty.
@@ -31,10 +31,10 @@ class GlbScene {
 
  private:
   struct Body {
-    Pose shape;              ///< takes the shape that it is drawn with to the part, assembled; input units
-    Eigen::Vector3d center;  ///< of that shape, which its arrays count from; input units
+    Pose shape;              ///< maps the drawn shape to the assembled part; input units
+    Eigen::Vector3d center;  ///< of that shape, the origin of its arrays; input units
   };
-  Eigen::Vector3d origin_;  ///< input units; the nodes of parts count from it
+  Eigen::Vector3d origin_;  ///< of the part nodes; input units
   std::vector<Body> bodies_;
   GlbJson nodes_ = GlbJson::array(), meshes_ = GlbJson::array(), materials_ = GlbJson::array();
   GlbBuffer buffer_;

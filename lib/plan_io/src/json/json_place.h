@@ -1,4 +1,4 @@
-/// A JSON value that knows where it stands, and names that place when it is not what was expected.
+/// A JSON value with its location, which errors name.
 #pragma once
 
 #include <fmt/format.h>

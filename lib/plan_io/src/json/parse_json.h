@@ -6,7 +6,7 @@
 
 namespace dismantle {
 
-/// A key that stands twice in one object is an error, since the library would keep the last silently.
+/// A duplicate key in an object is an error, because the library would silently keep the last one.
 /// @throws InputError naming `source`.
 nlohmann::ordered_json parse_json(const std::string& text, const std::string& source);
 

@@ -1,4 +1,4 @@
-// plan.json -> Plan: strict, every problem named with its place in the file.
+// plan.json -> Plan: strict, every problem is reported with its location in the file.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -13,7 +13,7 @@ void catch_up(Plan& known, const Plan& now) {
   known.disassembly.insert(known.disassembly.end(), now.disassembly.begin() + static_cast<std::ptrdiff_t>(same),
                            now.disassembly.end());
 
-  // The other way round, so numbers of all change. What is assembled need not be what was taken apart, backwards.
+  // Assembly steps are in reverse order, so all their numbers change. They need not be the reversed disassembly.
   auto& back = known.assembly_steps;
   if (back.size() < same || now.assembly_steps.size() < same) {
     back = now.assembly_steps;

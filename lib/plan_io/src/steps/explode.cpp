@@ -33,7 +33,7 @@ std::vector<Aabb> boxes_of(const Plan& plan, const Assembly& assembly) {
   return out;
 }
 
-/// Mean displacement of the middles of those of `group` that the step moves; zero if it moves none.
+/// Mean displacement of the box centres of the parts of `group` that the step moves; zero if it moves none.
 Eigen::Vector3d mean_displacement(const PlanStep& step, const Plan& plan, const PartIndices& group,
                                   const std::vector<Aabb>& boxes) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -47,7 +47,7 @@ Eigen::Vector3d mean_displacement(const PlanStep& step, const Plan& plan, const 
   return count > 0 ? Eigen::Vector3d(sum / count) : sum;
 }
 
-/// How far `a` has to go along `u` until it has passed `b`; 0 if it does not meet it.
+/// How far `a` must move along `u` until it has passed `b`; 0 if they do not meet.
 double passing(const Aabb& a, const Aabb& b, const Eigen::Vector3d& u, double gap) {
   double enter = 0, leave = std::numeric_limits<double>::infinity();
   for (Eigen::Index k = 0; k < 3; ++k) {
@@ -80,7 +80,7 @@ Offsets exploded_offsets(const Plan& plan, const Assembly& assembly) {
   const double size = all.size().maxCoeff();
   const double gap = 0.04 * size;  // between boxes
 
-  // Backwards, as in assembling: what goes in as one is exploded already when it has to keep clear of the rest.
+  // In reverse, as in assembly: a group is already exploded when it has to keep clear of the rest.
   for (std::size_t s = plan.disassembly.size(); s-- > 0;)
     for (const GroupSplit& split : splits[s]) {
       PartIndices obstacles = split.rest;
@@ -88,7 +88,7 @@ Offsets exploded_offsets(const Plan& plan, const Assembly& assembly) {
         const PlanStep& step = plan.disassembly[s];
         Eigen::Vector3d u =
             mean_displacement(step, plan, piece, boxes) - mean_displacement(step, plan, split.rest, boxes);
-        if (!(u.norm() > 1e-9 * size)) {  // it only turned: away from the middle
+        if (!(u.norm() > 1e-9 * size)) {  // rotation only: move away from the centre
           u.setZero();
           for (const std::size_t i : piece) u += boxes[i].center() - all.center();
         }

@@ -12,7 +12,7 @@ namespace {
 
 using PartSet = std::vector<std::size_t>;
 
-/// Index in `pieces` of the one that stays when all of a group is named.
+/// Index in `pieces` of the piece that stays if the step names all parts of a group.
 std::size_t staying_piece(const std::vector<PartSet>& pieces, const std::set<std::size_t>& movers) {
   const auto key = [&](const PartSet& piece) {
     const bool fixed = std::ranges::none_of(piece, [&](std::size_t i) { return movers.contains(i); });

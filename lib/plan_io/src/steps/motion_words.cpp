@@ -71,7 +71,7 @@ MotionSummary summarize_motion(const std::vector<Pose>& poses, const Eigen::Vect
     gross += w.norm();
   }
   out.displacement = points.back() - points.front();
-  // Turns that take each other back are no turn.
+  // Turns that cancel out do not count.
   out.turn = turned.norm();
   if (out.turn > 1e-3 * gross && out.turn > 0) out.axis = turned / out.turn;
   std::vector<Eigen::Vector3d> kept{points.front()};
@@ -80,7 +80,7 @@ MotionSummary summarize_motion(const std::vector<Pose>& poses, const Eigen::Vect
     if (const Eigen::Vector3d leg = kept[i] - kept[i - 1]; leg.norm() > tolerance || kept.size() > 2)
       out.legs.push_back(leg);
   if (out.legs.empty() && out.displacement.norm() > 0 && !(out.turn * 180 / std::numbers::pi > kTurned))
-    out.legs.push_back(out.displacement);  // short, but all that there is
+    out.legs.push_back(out.displacement);  // short, but the whole motion
   return out;
 }
 

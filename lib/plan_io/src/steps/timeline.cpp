@@ -34,7 +34,7 @@ std::map<std::string, Body> bodies_of(const Assembly& assembly) {
   return out;
 }
 
-/// Way of the part that moves furthest, from the step's begin to each of its instants.
+/// Travel of the part that moves furthest, from the begin of the step to each instant.
 std::vector<double> way_of(const PlanStep& step, const std::vector<Body>& bodies) {
   std::vector<double> way(step.moves.front().poses.size(), 0.0);
   for (std::size_t k = 1; k < way.size(); ++k) {

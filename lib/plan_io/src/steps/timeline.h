@@ -1,4 +1,4 @@
-/// When each part of a plan is where: the plan's steps laid out in time.
+/// The plan's steps laid out in time: the pose of each part at each time.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,10 +32,10 @@ struct Timeline {
   std::vector<StepTime> steps;
 };
 
-/// One track per part that moves, in part order. Steps follow each other with short pauses; within a step the
-/// fastest part moves at constant speed, and the longer its way the longer the step (1 to 3 s). Every track
-/// ends at the same time, 1 s after the last motion, so that a looping viewer rests on the result.
-/// A part that moves later is at the first of its keys from the beginning.
+/// One track per part that moves, in part order. Steps follow each other with short pauses; within a step the fastest
+/// part moves at constant speed, and the step takes 1 to 3 s, depending on its travel. Every track ends at the same
+/// time, 1 s after the last motion, so that a looping viewer rests on the result. Before its first key, a part is at
+/// that key.
 /// @throws InputError when the plan names a part that the assembly does not have.
 Timeline timeline(const std::vector<PlanStep>& steps, const Assembly& assembly);
 

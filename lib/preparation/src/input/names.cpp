@@ -43,7 +43,7 @@ std::string valid_utf8(std::string_view bytes) {
       out += '_';
       ++i;
     } else if (n == 2 && bytes[i] == '\xC2' && static_cast<unsigned char>(bytes[i + 1]) < 0xA0) {
-      out += '_';  // a terminal takes these for commands
+      out += '_';  // terminals interpret these as commands
       i += 2;
     } else {
       out += bytes.substr(i, n);
@@ -54,7 +54,7 @@ std::string valid_utf8(std::string_view bytes) {
 }
 
 void make_names_unique(std::vector<RawPart>& parts, std::vector<std::string>& warnings) {
-  std::set<std::string> reserved;  // a name as given is never taken away by a renamed one
+  std::set<std::string> reserved;  // a renamed part never takes a name of the input
   for (auto& part : parts) {
     if (part.name.empty()) part.name = "part";
     reserved.insert(part.name);

@@ -5,7 +5,7 @@
 
 namespace dismantle {
 
-/// Whether `file` is an animation of a plan (plan.glb, under whatever name): it shows the parts, it is none.
+/// Whether `file` is an animation of a plan (plan.glb, under whatever name): it shows the parts and is not one.
 bool is_own_animation(const std::filesystem::path& file);
 
 }  // namespace dismantle

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What lies beside meshes in real folders and is no geometry: left aside without a word.
+/// Extensions of files that often lie beside meshes and hold no geometry; skipped silently.
 const std::set<std::string>& companions() {
   static const std::set<std::string> set = {
       "",    "txt",  "md",  "json", "yaml", "yml",  "csv",  "xml",  "html", "pdf",  "log",  "mtl", "png",
@@ -73,7 +73,7 @@ std::vector<fs::path> meshes_in(const fs::path& folder, const Readers& readers, 
     if (fs::is_directory(status)) {
       folders.push_back(valid_utf8(name));
     } else if (readers.count(extension)) {
-      // Broken links come through, so that reading them names the trouble; pipes and devices would hang.
+      // Broken links are kept, so that reading them reports the problem. Pipes and devices would hang.
       if (fs::is_other(status))
         warnings.push_back(fmt::format("'{}' is no regular file: left aside", valid_utf8(name)));
       else if (extension == "glb" && is_own_animation(path))
@@ -94,7 +94,7 @@ std::vector<fs::path> meshes_in(const fs::path& folder, const Readers& readers, 
   return meshes;
 }
 
-/// Files that a glTF text file keeps its geometry in, next to it.
+/// Files next to a glTF text file that hold its geometry.
 std::vector<fs::path> buffers_of_gltf(const fs::path& file) {
   std::vector<fs::path> buffers;
   std::FILE* in = std::fopen(file.c_str(), "rb");
@@ -128,7 +128,7 @@ std::string too_many(std::uint64_t count, const std::string& where, std::int64_t
       count, where, limit);
 }
 
-/// Passing the limit of triangles refuses the whole input.
+/// Thrown above the limit of triangles; refuses the whole input.
 class TooLarge : public InputError {
  public:
   using InputError::InputError;
@@ -167,7 +167,7 @@ class Reader {
     return parts;
   }
 
-  /// One file of a folder: what cannot be read is a part that cannot be used.
+  /// One file of a folder. An unreadable file becomes an unusable part.
   RawPart read_whole(const fs::path& file, Importer& importer) {
     try {
       return joined(read(file, importer), file);
@@ -177,7 +177,7 @@ class Reader {
       RawPart broken;
       broken.file = valid_utf8(file.filename().string());
       broken.problem = e.what();
-      // The subject is the file, which its name stands for already.
+      // The subject is the file, which the part's name already tells.
       if (const std::string subject = e.subject() + ": "; broken.problem.starts_with(subject))
         broken.problem.erase(0, subject.size());
       broken.problem = fmt::format("{} cannot be read: {}", broken.file, valid_utf8(broken.problem));

@@ -1,4 +1,4 @@
-/// When and how parts that no verified motion was found for are taken out by force: the section `force:`.
+/// When and how parts without a verified motion are removed by force: the section `force:`.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,7 @@ namespace dismantle {
 /// When forced steps are made.
 enum class ForceWhen { off, last_resort };
 
-/// When parts without a verified path are taken out by force, and what that may cost. Defaults; docs and ranges are in
-/// describe().
+/// When parts without a verified path are removed by force, and what that may cost. Docs and ranges are in describe().
 struct ForceOptions {
   ForceWhen when = ForceWhen::off;  ///< the key `run.force`
   double share = 0.15;

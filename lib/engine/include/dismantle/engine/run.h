@@ -1,4 +1,4 @@
-/// The main job: assembly + planners -> verified plan.
+/// Planning: assembly + planners -> verified plan.
 #pragma once
 
 #include <functional>
@@ -29,7 +29,7 @@ struct NamedProver {
   std::shared_ptr<const ImmobilityProver> prover;
 };
 
-/// How each kind is made; called once per thread for path and transfer planners.
+/// The plugins of a run. The functions create one object per thread.
 struct PlanningSetup {
   std::shared_ptr<Simulator> simulator;
   std::function<std::shared_ptr<PathPlanner>()> path_planner;
@@ -38,7 +38,7 @@ struct PlanningSetup {
   /// Empty: assembly steps begin where the disassembly ended.
   std::function<std::shared_ptr<TransferPlanner>()> transfer_planner;
   std::string transfer_planner_id;
-  std::vector<NamedProver> provers{};  ///< in the order of asking; empty: nothing is proved
+  std::vector<NamedProver> provers{};  ///< asked in this order; empty: no proofs
 };
 
 /// Limits and switches of one run.
@@ -49,16 +49,16 @@ struct RunOptions {
   VerifyOptions verify;
   ProofOptions proofs;
   ForceOptions force;  ///< not used for `only_part`
-  /// Pairs that overlap by more when assembled, or may by the user, are named in each step that makes use of it;
+  /// Pairs whose overlap, as assembled or as allowed by the user, exceeds this are named in each step that uses it;
   /// assembly units, >= 0.
   double named_overlap = 0.1;
   LayoutOptions layout;  ///< used when there is a transfer planner
   std::uint64_t seed = 1;
   Constraints constraints;
-  std::vector<FlexiblePart> flexible{};  ///< parts that count as such, for the plan to state
+  std::vector<FlexiblePart> flexible{};  ///< flexible parts, for the plan to state
 };
 
-/// What a run gave.
+/// Result of a run.
 struct RunResult {
   Plan plan;
   Outcome outcome = Outcome::crashed;
@@ -69,7 +69,7 @@ struct RunResult {
   std::vector<std::pair<std::string, std::string>> precedence;  ///< (before, after)
   double prepare_seconds = 0;                                   ///< simulator preparation
   double plan_seconds = 0;
-  double proof_seconds = 0;  ///< of immobility provers, on all threads together; attempts do not count it as theirs
+  double proof_seconds = 0;  ///< of immobility provers, summed over all threads; not part of the time of attempts
 };
 
 /// Runs to the end, the deadline or cancellation; in each case the result holds every finished step.
@@ -77,7 +77,7 @@ struct RunResult {
 DISMANTLE_API RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOptions& options,
                             RunContext& context, const std::function<void(const Plan&)>& on_step = {});
 
-/// The plan before the first step: what can be saved of a run that a plugin never gave back.
+/// The plan before the first step: what can be saved if a plugin never returns.
 DISMANTLE_API Plan plan_before_first_step(const Assembly& assembly, const RunOptions& options);
 
 /// The oracle that `run` uses; public for tests and for sequence planners' authors.

@@ -12,10 +12,10 @@
 
 namespace dismantle {
 
-/// plan.glb: one node per part named like the part, glTF 2.0. Two animations: "disassembly", and after
-/// it "assembly" with the assembly steps; `extras` of each: `kind` (its name) and `steps`, when each step happens.
-/// In metres with Y up, as glTF has it: the root node scales and turns the input as `frame` says. Below it all is in
-/// input units and axes. Congruent parts share a surface.
+/// plan.glb: one node per part named like the part, glTF 2.0. Two animations: "disassembly", and after it "assembly"
+/// with the assembly steps; `extras` of each: `kind` (its name) and `steps`, when each step happens. In metres with Y
+/// up, as glTF requires: the root node scales and turns the input as `frame` says. Below it, all is in input units and
+/// axes. Congruent parts share a surface.
 /// @throws InputError when the plan names a part that the assembly does not have, or a unit that is not known.
 DISMANTLE_API std::vector<std::uint8_t> to_glb(const Plan& plan, const Assembly& assembly, const InputFrame& frame);
 /// With input_frame(assembly).

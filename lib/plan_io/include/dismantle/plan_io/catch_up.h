@@ -1,4 +1,4 @@
-/// A copy of a plan that grows, kept up to date at the cost of what is new.
+/// Keeps a copy of a growing plan up to date, at a cost that depends only on the new steps.
 #pragma once
 
 #include "dismantle/export.h"
@@ -6,9 +6,9 @@
 
 namespace dismantle {
 
-/// Makes `known` equal to `now`. It must be the same plan some steps ago: while a run goes on, steps are added, and only
-/// the last one may change. All other steps, and what a plan says before the first step (generator, assembly, seed,
-/// tolerance), are taken to be the same and not copied.
+/// Makes `known` equal to `now`. It must be an earlier state of the same plan: a run adds steps and changes only the
+/// last one. All other steps, and the data before the first step (generator, assembly, seed, tolerance), are assumed
+/// equal and not copied.
 DISMANTLE_API void catch_up(Plan& known, const Plan& now);
 
 }  // namespace dismantle

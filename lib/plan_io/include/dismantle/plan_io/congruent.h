@@ -1,4 +1,4 @@
-/// Which parts are the same shape in another place.
+/// Finds parts of the same shape at different poses.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace dismantle {
 /// A part as a copy of an earlier one.
 struct ShapePlacement {
   std::size_t original = 0;  ///< index of the first part of this shape; the part's own if there is none before it
-  Pose pose;                 ///< takes the original, assembled, to this part, assembled; assembly units
+  Pose pose;                 ///< maps the assembled original to this assembled part; assembly units
 };
 
 /// One per part. Two parts count as one shape when their triangles are numbered alike and a rigid displacement takes

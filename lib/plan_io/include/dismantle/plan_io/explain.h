@@ -11,7 +11,7 @@
 
 namespace dismantle {
 
-/// What is known of the run's configuration: values by key ("run.path_timeout" -> "120"), as in resolved.yaml.
+/// Known values of the run's configuration by key ("run.path_timeout" -> "120"), as in resolved.yaml.
 using ExplainSettings = std::map<std::string, std::string>;
 
 /// What holds a part.
@@ -26,7 +26,7 @@ struct LeftPart {
   std::string part;
   std::vector<Blocker> blockers;  ///< those touched most often first
   Pose best_pose;                 ///< input units
-  double travel = 0;              ///< of the middle of the assembly, moved along with the part; input units
+  double travel = 0;              ///< of the assembly's centre as if it moved with the part; input units
   double turn = 0;                ///< rad
   std::string planner;            ///< empty: no search was made
   unsigned attempts = 0, depth = 0;
@@ -48,10 +48,10 @@ struct LeftReason {
 struct StepReason {
   unsigned step = 0;
   std::vector<std::string> parts;       ///< that it moves
-  std::vector<unsigned> after;          ///< steps that had to come first, without those that follow from others
-  std::vector<std::string> waited_for;  ///< the parts that left in these
+  std::vector<unsigned> after;          ///< steps that had to come first, without those implied by others
+  std::vector<std::string> waited_for;  ///< the parts that left in these steps
   std::vector<std::string> contacts;    ///< parts touched on the way
-  bool known = false;                   ///< false: the plan does not say what had to come first
+  bool known = false;                   ///< false: the plan does not say which steps had to come first
 };
 
 /// Refers to the plan that it explains.

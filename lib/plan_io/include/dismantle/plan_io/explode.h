@@ -10,9 +10,9 @@
 
 namespace dismantle {
 
-/// By place in PlanAssembly::parts: how far to move each part from where it is when assembled, input units. Each goes
-/// in the direction in which the plan takes it out, groups as a whole first, so far that its box is clear of those of
-/// what it was taken from.
+/// In the order of PlanAssembly::parts: displacement of each part from its assembled position, input units. Each moves
+/// in the direction of its removal, groups first as a whole, until its box is clear of the boxes of the group that it
+/// left.
 /// @throws InputError when the plan names a part that the assembly does not have.
 DISMANTLE_API std::vector<Eigen::Vector3d> exploded_offsets(const Plan& plan, const Assembly& assembly);
 

@@ -16,7 +16,7 @@ struct GroupSplit {
   std::vector<std::vector<std::size_t>> out;  ///< what is taken from it; none is empty
 };
 
-/// By place in Plan::disassembly. A step that only shifts parts splits nothing; others split one group (a plan file may
+/// In the order of Plan::disassembly. An intermediate placement splits nothing; others split one group (a plan file may
 /// say more). When a step names every part of a group in `separates`, its largest piece without a moving part is the
 /// rest.
 /// @throws InputError when the plan separates a part that its assembly lacks.

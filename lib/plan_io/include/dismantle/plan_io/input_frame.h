@@ -1,4 +1,4 @@
-/// Length and up axis of an assembly's input: what turns its coordinates into those of glTF (metres, Y up).
+/// Length unit and up axis of an assembly's input, for conversion to glTF (metres, Y up).
 #pragma once
 
 #include <Eigen/Geometry>

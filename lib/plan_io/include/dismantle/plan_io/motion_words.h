@@ -25,8 +25,8 @@ struct MotionSummary {
 DISMANTLE_API MotionSummary summarize_motion(const std::vector<Pose>& poses, const Eigen::Vector3d& point,
                                              double tolerance);
 
-/// The tolerance of summarize_motion() for text about an assembly whose largest edge is `size`: a hundredth is less
-/// than a reader sees.
+/// The tolerance of summarize_motion() for text about an assembly whose largest edge is `size`: readers do not notice a
+/// hundredth.
 inline double leg_tolerance(double size) { return 0.01 * size; }
 
 /// Three significant digits, without an exponent for what people measure: "1270", "18.3", "0.05".

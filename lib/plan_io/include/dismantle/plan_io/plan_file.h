@@ -9,13 +9,13 @@
 
 namespace dismantle {
 
-/// The word that files and messages use.
+/// Name in files and messages.
 DISMANTLE_API std::string_view to_string(PlanStatus status);
-/// The word that files and messages use.
+/// Name in files and messages.
 DISMANTLE_API std::string_view to_string(AssemblyStatus status);
 /// Same plan, same bytes. Times are the only fields that vary between runs.
 DISMANTLE_API std::string to_json(const Plan& plan);
-/// @throws InputError naming `source` and the place of what is wrong.
+/// @throws InputError naming `source` and the location of the problem.
 DISMANTLE_API Plan plan_from_json(const std::string& text, const std::string& source);
 
 }  // namespace dismantle

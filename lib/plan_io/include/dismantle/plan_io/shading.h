@@ -1,4 +1,4 @@
-/// Triangles made ready to be looked at: single precision, with normals.
+/// Triangles for display: single precision, with normals.
 #pragma once
 
 #include <Eigen/Core>

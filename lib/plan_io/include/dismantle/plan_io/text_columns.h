@@ -15,7 +15,7 @@ inline std::size_t width_of(const std::string& utf8) {
   return static_cast<std::size_t>(std::ranges::count_if(utf8, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-/// `text` with spaces up to `width` characters.
+/// `text` padded with spaces to `width` characters.
 inline std::string padded(std::string text, std::size_t width) {
   const std::size_t now = width_of(text);
   return now < width ? text.append(width - now, ' ') : text;

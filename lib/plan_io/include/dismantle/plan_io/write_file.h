@@ -1,4 +1,4 @@
-/// Files that are replaced as a whole.
+/// Atomic replacement of files.
 #pragma once
 
 #include <filesystem>

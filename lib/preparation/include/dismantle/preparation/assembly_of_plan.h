@@ -1,4 +1,4 @@
-/// The assembly that a plan file is for, from the input files again.
+/// Rebuilds the assembly of a plan file from its input files.
 #pragma once
 
 #include "dismantle/export.h"
@@ -9,8 +9,8 @@
 
 namespace dismantle {
 
-/// Prepares just the parts that the plan is about, in the plan's scale and about its centre, to verify it: overlaps are
-/// measured anew, surfaces are repaired as they were for the plan, nothing is subdivided. `input` is what was read from `source`.
+/// Prepares only the parts of the plan, with the plan's scale and centre, for verification. Overlaps are measured
+/// again, surfaces are repaired as for the plan, nothing is subdivided. `input` was read from `source`.
 /// @throws InputError when `input` is not what the plan was made for (other bytes, other parts), or a part of the plan
 /// cannot be used. @throws Error when `context` wants to stop.
 DISMANTLE_API Assembly assembly_of_plan(const Plan& plan, InputParts input, const std::string& source,

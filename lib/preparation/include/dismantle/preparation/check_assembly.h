@@ -1,4 +1,4 @@
-/// What is wrong with an assembly before anyone plans.
+/// Checks an assembly for problems before planning.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ namespace dismantle {
 enum class FindingKind {
   unusable,   ///< the part cannot be planned with: not closed, no volume, unreadable numbers
   repaired,   ///< its surface had to be changed
-  suspect,    ///< its surface is kept as it is, though something is wrong with it
+  suspect,    ///< its surface has a problem, but is kept as it is
   duplicate,  ///< same geometry and place as another part
   overlap,    ///< two parts penetrate each other when assembled
   enclosed,   ///< a part lies inside the solid material of another
@@ -53,7 +53,7 @@ struct CheckedContact {
   OverlapPlace place;  ///< input units; only its class where they do not overlap
 };
 
-/// What check_assembly() says of an input.
+/// Result of check_assembly().
 struct AssemblyCheck {
   std::vector<Finding> findings;  ///< errors first, then warnings, then notes; deeper overlaps first
   std::size_t parts = 0;          ///< in the input
@@ -68,18 +68,18 @@ struct AssemblyCheck {
 /// @throws Error when `context` wants to stop.
 DISMANTLE_API AssemblyCheck check_assembly(const Assembly& assembly, const PrepareReport& report, double tolerance,
                                            const RunContext& context);
-/// What the report alone tells: for an input of which no assembly could be made.
+/// Findings from the report alone, for an input that gave no assembly.
 DISMANTLE_API AssemblyCheck check_parts(const PrepareReport& report);
 
-/// The word that files and messages use.
+/// Name in files and messages.
 DISMANTLE_API std::string_view to_string(FindingKind kind);
-/// The word that files and messages use.
+/// Name in files and messages.
 DISMANTLE_API std::string_view to_string(Severity severity);
 /// For a terminal; UTF-8, ends with a line break.
 DISMANTLE_API std::string findings_text(const AssemblyCheck& check, const std::string& source);
 /// One JSON object: {"parts", "usable", "errors", "warnings", "findings": [{"kind", "severity", "parts", "message",
 /// "advice", "class", "depth", "at", "picture"}], "contacts": [{"parts", "class", "depth", "at", "region", "share",
-/// "axis"}]}; in a finding the last four, in a contact the last five only where there is such a thing.
+/// "axis"}]}; the last four keys of a finding and the last five of a contact are left out if they do not apply.
 DISMANTLE_API std::string findings_json(const AssemblyCheck& check);
 
 }  // namespace dismantle

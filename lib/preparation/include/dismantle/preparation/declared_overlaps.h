@@ -1,4 +1,4 @@
-/// Depths to which the user allows parts to be in each other, whatever they overlap when assembled.
+/// Penetration depths that the user allows, whatever the overlap when assembled.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@ namespace dismantle {
 /// `depth`: assembly units, >= 0. @throws InputError when there is no such part, or both are the same.
 DISMANTLE_API void declare_overlap(Assembly& assembly, const std::string& a, const std::string& b, double depth);
 
-/// A flexible part (a spring, a belt, a cable, an O-ring) may be cut into by every other part as deep as its material is
-/// thick, taken for a round wire: four times its volume by its surface. What overlaps more when assembled, or has a
-/// depth declared, keeps that. @throws InputError when there is no such part.
+/// Allows every other part to cut into a flexible part (a spring, a belt, a cable, an O-ring) by its thickness as a
+/// round wire: four times its volume over its surface area. Pairs with a larger overlap or a declared depth keep
+/// theirs. @throws InputError when there is no such part.
 DISMANTLE_API void declare_flexible(Assembly& assembly, const std::string& part);
 
 }  // namespace dismantle

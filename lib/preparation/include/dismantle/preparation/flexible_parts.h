@@ -1,4 +1,4 @@
-/// Parts that bend, told by their shape and by what they are in contact with (docs/concepts.md).
+/// Recognises flexible parts by shape and contact (docs/concepts.md).
 #pragma once
 
 #include <optional>
@@ -12,22 +12,22 @@
 
 namespace dismantle {
 
-/// How deep a flexible part may be cut into: as its material is thick, taken for a round wire: four times its volume by
-/// its surface. Assembly units.
+/// How deep other parts may cut into a flexible part: its thickness as a round wire, four times its volume over its
+/// surface area. Assembly units.
 DISMANTLE_API double flexible_depth(const Part& part);
 
-/// `coil` or `loop`, or none, of a closed mesh. From its shape alone: a rigid hoop looks as a seal does.
+/// Classifies a closed mesh as `coil`, `loop` or neither, by shape alone: a rigid hoop looks like a seal.
 DISMANTLE_API std::optional<Flexible> flexible_shape(const Mesh& mesh);
 
-/// Parts whose shape is that of a coil or a loop, with those that they overlap when assembled, but for what lies in the
-/// solid of another: a coil with all of them, a loop with those that are in it along a quarter of its turns or more.
-/// Sets InitialOverlap::declared of these pairs to the depth of the part, where it is more than they overlap. Parts
-/// that are not in `only`, if given, stay rigid. `assembly` has its overlaps measured. In the order of parts;
-/// deterministic on any number of threads. @throws Error when `context` wants to stop.
+/// Finds coils and loops, with the parts that overlap them when assembled: for a coil all of these, for a loop those
+/// that are in it along at least a quarter of its turns. Overlaps of the classes `inside` and `duplicate` do not count.
+/// Sets InitialOverlap::declared of these pairs to the depth of the part, if that exceeds their overlap. If `only` is
+/// given, other parts stay rigid. The overlaps of `assembly` must be measured. In the order of parts; deterministic on
+/// any number of threads. @throws Error when `context` wants to stop.
 DISMANTLE_API std::vector<FlexiblePart> recognise_flexible(Assembly& assembly, const RunContext& context,
                                                            const std::vector<std::string>* only = nullptr);
 
-/// What the user declared, as far as it is in the assembly, after those of `recognised` that are not declared.
+/// The recognised parts that are not declared, followed by the declared parts that are in the assembly.
 DISMANTLE_API std::vector<FlexiblePart> with_declared(std::vector<FlexiblePart> recognised,
                                                       const std::vector<std::string>& declared,
                                                       const Assembly& assembly);

@@ -15,7 +15,7 @@ namespace dismantle {
 
 /// Which parts may count as flexible.
 enum class FlexibleParts {
-  recognised,  ///< those that the user declares, and those whose shape and contact say so
+  recognised,  ///< those that the user declares, and those recognised by shape and contact
   declared,    ///< those that the user declares
 };
 
@@ -25,7 +25,7 @@ struct PrepareOptions {
   bool repair = true;             ///< orient, close T-junctions and small holes, drop inner walls
   double max_hole = 0.1;          ///< largest hole that is closed, share of the part's surface area
   bool drop_duplicates = true;    ///< step 3
-  double max_overlap = 1.0;       ///< step 4: drop a part that overlaps others by more than this share of its volume; 1 = never
+  double max_overlap = 1.0;       ///< step 4: drop parts with more than this share of their volume in others; 1 = never
   double min_thickness = 0.0;     ///< step 5: drop parts thinner than this share of the assembly; 0 = never
   bool largest_connected = false; ///< step 6
   bool normalize = true;          ///< step 7
@@ -41,7 +41,7 @@ struct PartReport {
   std::string name;
   std::string file;
   bool kept = true;
-  bool by_choice = false;             ///< not kept because of a rule of the configuration; it could have been used
+  bool by_choice = false;             ///< excluded by a rule of the configuration; it was usable
   std::vector<std::string> actions;   ///< plain sentences with figures: "welded 3024 vertices to 506"
   std::string reason;                 ///< not kept: why
   std::size_t vertices = 0, triangles = 0, shells = 0;

@@ -1,4 +1,4 @@
-/// From a path that the user named to raw parts, through the importers that are there.
+/// Reads the raw parts of the user's input, through the given importers.
 #pragma once
 
 #include <cstdint>
@@ -23,15 +23,15 @@ struct ReadOptions {
 struct InputParts {
   std::vector<RawPart> parts;
   std::string sha256;                 ///< of the bytes of all files read, in the order of `parts`; lower-case hex
-  std::vector<std::string> warnings;  ///< what was left aside or renamed, and why
+  std::vector<std::string> warnings;  ///< what was skipped or renamed, and why
 };
 
-/// A folder: each mesh file in it is one part, whatever it is made of, named as the file without its ending;
-/// sub-folders, files that are no meshes and animations that Dismantle wrote are left aside; a file that cannot be read is a
-/// part with a `problem`. A file: its parts, named as in the file.
+/// Folder: each mesh file is one part, even with several bodies, named like the file without extension. Sub-folders,
+/// other files and animations written by Dismantle are skipped. An unreadable file becomes a part with a `problem`.
+/// Single file: its parts, named as in the file.
 /// Names are made valid UTF-8 and unique ("a.obj" and "a.stl" for two files of one stem, "nut#2" for a second node).
-/// @throws InputError naming the input, or the file in it: missing, no importer for its ending, no parts, too large, and if it
-/// is one file, broken.
+/// @throws InputError naming the input, or the file in it: missing, no importer for its extension, no parts, too large,
+/// or a broken single file.
 /// @throws Error when `context` wants to stop.
 DISMANTLE_API InputParts read_input(const std::filesystem::path& input,
                                     const std::vector<std::shared_ptr<Importer>>& importers,
