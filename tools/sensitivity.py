@@ -33,13 +33,11 @@ ALWAYS_LEFT_OUT = {  # choices of the user, and parameters that matter only unde
 
 HEAD = """# Parameters and how much plans depend on them
 
-What becomes of plans when one parameter is halved or doubled, or a switch is turned, and all others have their defaults. What each parameter
-means, with its unit and range, is in [reference/](reference/README.md). Made by `tools/sensitivity.py`, on %d assemblies: samples as they are and
-with random dimensions and rotations, and those of the data folder that take little time.
+One parameter at a time is changed; the plans of %d assemblies are compared with those of the default values.
 
-*assemblies*: on how many the value was tried (of parameters of searches: those where something is searched for). *lost*, *gained*: on how many
-fewer or more parts came out without force. *other plan*: on how many any path differs. *CPU time*: of all of them together, as a ratio to that with the
-defaults; small differences are noise. One that no plan here depends on may still matter on assemblies that are harder than these.
+Columns: *assemblies*: the number that were planned (for parameters of searches: those that need a search). *lost*, *gained*: the number of assemblies in which
+fewer or more parts came out without force. *other plan*: the number in which a path differs. *CPU time*: total of all assemblies, relative to the default values.
+A parameter on which no plan depends here may matter for assemblies that are harder.
 """
 
 
