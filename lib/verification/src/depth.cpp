@@ -1,5 +1,5 @@
-// How deep two placed meshes penetrate each other: branch and bound over triangles. A patch is settled when one of
-// the displacement rules (patch.h) or the Lipschitz bound shows it to hold nothing deeper than what was found.
+// Penetration depth of two placed meshes by branch and bound over triangles. A patch is settled when a displacement
+// rule (patch.h) or the Lipschitz bound shows that it has nothing deeper than the deepest point found.
 #include <algorithm>
 #include <deque>
 #include <optional>
@@ -29,14 +29,14 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// Surface of A in B; `place` takes A to the frame of B, `frame` takes that frame to the world.
+/// Deepest surface point of A in B. `place` maps A to the frame of B, `frame` maps that frame to the world.
 class Descent {
  public:
   Descent(const Solid& a, const Solid& b, const Placement& place, double tolerance, const Pose& frame,
           Penetration& deepest, const RunContext& context)
       : a_(a), b_(b), place_(place), tolerance_(tolerance), frame_(frame), deepest_(deepest), context_(context) {}
 
-  /// True when one shrunken copy of all of A keeps off the surface of B.
+  /// Returns true if one shrunken copy of all of A stays off the surface of B.
   bool run() {
     if (first_round()) return true;
     if (stopped_) return false;
@@ -46,7 +46,7 @@ class Descent {
       sample(place_ * patch.center());
       if (told_to_stop(++sampled)) return false;
     }
-    std::uint64_t left = 100'000;  // patches: what is deepest is mostly found among the first thousands
+    std::uint64_t left = 100'000;  // patches: the deepest point is mostly among the first thousands
     while (!open_.empty() && left-- > 0) {
       if (told_to_stop(left)) return false;
       const Patch patch = open_.front();
@@ -88,7 +88,7 @@ class Descent {
     return seen == SweepResult::far || !b_.bvh.inside(place_ * ((moved[0] + moved[1] + moved[2]) / 3));
   }
 
-  /// The vertex rule for every triangle of A; what it does not settle is left in open_.
+  /// Applies the vertex rule to every triangle of A. Triangles that it does not settle are put in open_.
   bool first_round() {
     const double e = level();
     std::vector<Patch> clear;
@@ -123,7 +123,7 @@ class Descent {
     if (a_.bvh.nodes().empty()) return;
     const TriangleBvh::Node& node = a_.bvh.nodes()[id];
     const Vec3 c = place_ * node.box.center(), h = place_.r.cwiseAbs() * (0.5 * node.box.size());
-    if (!Aabb{c - h, c + h}.overlaps(b_.box)) return;  // what is outside the box of B has no depth
+    if (!Aabb{c - h, c + h}.overlaps(b_.box)) return;  // points outside the box of B have no depth
     if (node.count == 0) {
       collect(id + 1, f);
       collect(node.first, f);
@@ -136,7 +136,7 @@ class Descent {
     }
   }
 
-  /// Nothing of the patch is deeper than level(); or where it is best divided, if there is a good place.
+  /// True if nothing of the patch is deeper than level(). Else `ridge` is the best place to divide it, if there is one.
   bool settled(const Patch& patch, std::optional<Ridge>& ridge) {
     if (clear_outside(moved_by_vertices(patch, level()))) return true;
     if (clear_outside(moved_along(patch, -a_.normals[patch.triangle], level()))) return true;
@@ -188,7 +188,7 @@ Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const De
       const Pose &first_frame = swap ? place_y : place_x, &second_frame = swap ? place_x : place_y;
       const double before = deepest.depth;
       const bool shrunken = verify::Descent(first, second, there, tolerance, second_frame, deepest, context).run();
-      // As in pair_check.cpp: then nothing of the second is deeper in the first either.
+      // As in pair_check.cpp: then no point of the second is deeper in the first either.
       if (shrunken && verify::starts_off(second, first, back, before + tolerance)) continue;
       if (context.should_stop()) return deepest;
       verify::Descent(second, first, back, tolerance, first_frame, deepest, context).run();

@@ -12,7 +12,7 @@ namespace dismantle {
 namespace {
 
 struct Sample {
-  double u = 0;  // segment plus place in it
+  double u = 0;  // segment index plus position in the segment
   double depth = 0;
 };
 
@@ -35,7 +35,7 @@ struct MotionDepthMeter::Impl {
     return *made;
   }
 
-  /// One moving part past one fixed part. Raises `worst`; false when the answer is not proved.
+  /// Measures one moving part past one fixed part. Raises `worst`. Returns false when the result is not proved.
   bool pair(PartId part, const std::vector<Pose>& way, const PlacedPart& other, const MotionDepthOptions& options,
             const RunContext& context, double allowed, std::optional<MotionDepth>& worst) {
     const Aabb& box = assembly.parts.at(part).mesh->box();
@@ -54,7 +54,7 @@ struct MotionDepthMeter::Impl {
     const geometry::SweptBoxes there({other.pose}, fixed_box);
     const auto measure = [&](double u) {
       const Pose pose = pose_at(u);
-      // One measurement may be off by a quarter of the resolution; the rest is for what lies between two of them.
+      // A measurement may be off by a quarter of the resolution. The rest is for the motion between measurements.
       const Penetration found =
           deepest_penetration(body(part), pose, body(other.part), other.pose, 0.25 * resolution(), context);
       const MotionDepth here{part, other.part, found.depth, allowed, found.point, false};

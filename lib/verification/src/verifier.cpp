@@ -21,7 +21,7 @@ using Vec3 = Eigen::Vector3d;
 using verify::Answer;
 using verify::Finding;
 
-/// Displacements of points of `box` that are smaller are rounding.
+/// Displacements of points of `box` below this length are rounding.
 double rounding_of(const Aabb& box) {
   return geometry::kRounding * std::max(box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff());
 }
@@ -44,7 +44,7 @@ struct Verifier::Impl::Relative {
   Aabb box_b;
   verify::RelativeMotion forward;
 
-  /// Displaced corners may leave the boxes by `displaced`.
+  /// `displaced`: how far displaced corners may leave the boxes.
   Relative(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y, double displaced)
       : poses_a(in_frame(a.poses, x.frame)),
         poses_b(in_frame(b.poses, y.frame)),
@@ -74,8 +74,8 @@ Violation Verifier::Impl::violation(const Actor& a, const Actor& b, const verify
 
 Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, const RunContext& context)
     : assembly_overlaps(a.overlaps), options(o), bodies(a.parts.size()) {
-  // From a hundredth of the tolerance on, where parts slide on each other, in steps of about two. A tenth is worth the
-  // whole budget: such a motion is free by any measure.
+  // From a hundredth of the tolerance, as for parts that slide on each other, in factors of about two. A tenth is worth
+  // the whole budget: such a motion is practically free of penetration.
   for (const double divisor : {100, 50, 20, 10, 5, 2, 1}) {
     if (divisor == 10) worthwhile = rungs.size();
     rungs.push_back(options.max_penetration / divisor);
@@ -117,16 +117,16 @@ const Aabb* Verifier::Impl::region(PartId a, PartId b) const {
 geometry::Budget Verifier::Impl::budget_for(std::size_t segments, bool decides, bool overlapping,
                                             const RunContext* context) const {
   const VerifyBudget& b = options.budget;
-  // Parts that overlap deeper than it may get worse are divided along the ridges of what is buried.
+  // Deep overlaps need more patches: they are divided along the ridges of the buried surface.
   const std::uint64_t tests = b.tests + b.tests_per_segment * segments,
                       patches = (overlapping ? b.overlap_factor : 1) * b.patches;
   if (decides) return {tests, patches, 0, context, b.resolution};
   return {share_of(b.tests, b.trial_share), share_of(b.patches, b.trial_share), 0, context, b.resolution};
 }
 
-/// Pair after pair, each from the rung that those before it have raised. Idle threads help within a pair: checking
-/// later pairs from a rung that is still to be raised takes longer than it saves. Straight paths take little time, and
-/// mostly keep to the lowest rung.
+/// Checks pairs in order, each from the rung that the pairs before it have reached. Idle threads help within a pair,
+/// since later pairs checked from too low a rung cost more time than they save. If all paths are straight, pairs are
+/// first checked in parallel: they take little time, and mostly stay on the lowest rung.
 void Verifier::Impl::check(const Pairs& pairs, const RunContext& context, MotionCheck& result) const {
   const auto straight = [](const Actor& actor) { return actor.poses.size() <= 2; };
   std::vector<PairResult> results(pairs.size());
@@ -154,7 +154,7 @@ auto Verifier::Impl::check_pair(const Pairs::value_type& pair, std::size_t rung,
   return answer;
 }
 
-/// All pairs, until one fails, each from the rung that is known when its check begins.
+/// Checks all pairs in parallel until one fails, each from the highest rung known when its check begins.
 auto Verifier::Impl::check_pairs(const Pairs& pairs, const RunContext& context) const -> std::vector<PairResult> {
   std::vector<PairResult> results(pairs.size());
   std::atomic<std::size_t> known{0};
@@ -171,7 +171,7 @@ auto Verifier::Impl::check_pairs(const Pairs& pairs, const RunContext& context) 
   return results;
 }
 
-/// One pair of parts. `rung` is the lowest rung of the ladder that is still of interest; raised as needed.
+/// Checks one pair of parts. `rung` is the lowest rung to try; it is raised as needed.
 bool Verifier::Impl::check(const Actor& a, const Actor& b, const RunContext& context, std::size_t& rung,
                            MotionCheck& result) const {
   const double allowed = overlap(a.part, b.part);
@@ -187,7 +187,7 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const RunContext& con
   return true;
 }
 
-/// Law 3: outside the region of the initial overlap.
+/// Checks law 3, outside the region of the initial overlap.
 bool Verifier::Impl::check_elsewhere(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y,
                                      const Aabb& region, const RunContext& context, MotionCheck& result) const {
   const verify::Limits limits{0, options.max_penetration, &region, options.max_penetration};
@@ -212,7 +212,7 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
   const verify::RelativeMotion backward = motion.backward();
 
   const std::size_t last = rungs.size() - 1;
-  // Paths of many segments are close fits, on which the low rungs fail: samples first.
+  // Paths of many segments are close fits, on which low rungs fail, so they are sampled first.
   bool sampled = forward.segments() >= 16 && geometry::box_under(x.box, forward.at(0)).overlaps(y.box);
   bool sample_tells = false;
   Finding seen;
@@ -232,7 +232,7 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
       result.interrupted = true;
       return false;
     }
-    if (!sampled) {  // before more effort: how deep is it at least?
+    if (!sampled) {  // a lower bound of the depth, before more effort
       seen = verify::deepest_sample(x, y, forward, backward);
       sampled = true;
       if (seen.depth > f.depth || f.answer != Answer::violated)
@@ -246,7 +246,7 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
       return false;
     }
     ++rung;
-    if (f.answer == Answer::violated)  // a rung that is just wide enough takes long to prove
+    if (f.answer == Answer::violated)  // a rung with little margin takes long to prove
       while (rung < last && f.depth > allowed + 0.8 * (verify::Limits{allowed, rungs[rung]}.at(f.thickness) - allowed))
         ++rung;
     if (f.answer == Answer::exhausted) rung = std::max(rung, worthwhile);

@@ -1,4 +1,4 @@
-/// What a Verifier keeps of the parts.
+/// Internal data of a Verifier.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ struct Verifier::Impl {
     Aabb box;
     std::vector<Eigen::Vector3d> corners;  // of the convex hull
   };
-  /// One column of the question: a part and its poses, one or as many as there are instants.
+  /// A part of the checked motion and its poses: one if it is fixed, else one per instant.
   struct Actor {
     PartId part = 0;
     std::vector<Pose> poses;
@@ -34,17 +34,17 @@ struct Verifier::Impl {
 
   Impl(const Assembly& assembly, VerifyOptions options, const RunContext& context);
 
-  /// The pair's when assembled.
+  /// Initial overlap of the pair.
   double overlap(PartId a, PartId b) const;
   const Aabb* region(PartId a, PartId b) const;
   verify::HullsApart hulls_of(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const;
-  /// For a path of that many segments: for a rung that decides, or for one that need not hold.
+  /// Budget for a path of that many segments, for a rung that decides or for one that may fail.
   geometry::Budget budget_for(std::size_t segments, bool decides, bool overlapping, const RunContext* context) const;
   using Pairs = std::vector<std::pair<const Actor*, const Actor*>>;
-  /// What was seen of a pair.
+  /// Result of the check of one pair.
   struct PairResult {
     bool done = false, passed = false;
-    std::size_t from = 0, rung = 0;  // first and last that was tried
+    std::size_t from = 0, rung = 0;  // first and last rung tried
     MotionCheck found;
   };
   PairResult check_pair(const Pairs::value_type& pair, std::size_t rung, const RunContext& context) const;
@@ -63,10 +63,10 @@ struct Verifier::Impl {
     PartId a = 0, b = 0;
     Aabb box;
   };
-  std::vector<Region> regions;  // of pairs whose overlap is allowed where it was
+  std::vector<Region> regions;  // of pairs whose overlap is allowed only there (law 3)
   VerifyOptions options;
-  std::vector<double> rungs;   // bounds that max_penetration is reported by, ascending to the tolerance
-  std::size_t worthwhile = 0;  // the rung that gets the whole budget although a wider one will do
+  std::vector<double> rungs;   // certified bounds, ascending to the tolerance
+  std::size_t worthwhile = 0;  // rung that gets the whole budget although a wider one suffices
   std::vector<Body> bodies;
   std::vector<std::shared_ptr<const Mesh>> meshes;
 };

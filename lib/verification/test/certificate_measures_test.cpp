@@ -1,5 +1,5 @@
-// What checkers of certificates measure, against closed forms and the queries of lib/geometry, of which they share
-// nothing.
+// Measurements of the certificate checkers against closed forms and the queries of lib/geometry, with which they share
+// no code.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -88,7 +88,7 @@ TEST(CertificateMeasures, ABallIsInTheHullOfABoxAsFarAsItsNearestFace) {
     const Vec3 p = any_point(rng, 2.2);
     const double depth = (half - p.cwiseAbs()).minCoeff();
     EXPECT_FALSE(ball_in_hull(at * p, std::max(0.0, depth) + 1e-9, box.vertices));
-    if (depth > 0.02 * (p.norm() + half.norm())) {  // of the furthest corner: what the checker resolves, and more
+    if (depth > 0.02 * (p.norm() + half.norm())) {  // of the furthest corner: more than the checker resolves
       EXPECT_TRUE(ball_in_hull(at * p, 0.5 * depth, box.vertices)) << depth;
     }
   }

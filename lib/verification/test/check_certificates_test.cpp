@@ -1,4 +1,4 @@
-// Certificates of a plan: whatever is wrong with one is found.
+// Certificates of a plan: every error is found.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 using shapes::Vec3;
 
-/// Blocks 0 and 1 are held to each other by decree; block 2 leaves by a translation.
+/// A fake prover declares blocks 0 and 1 inseparable; block 2 leaves by a translation.
 class CheckCertificates : public ::testing::Test {
  protected:
   CheckCertificates() {

@@ -27,7 +27,7 @@ class CheckPlan : public ::testing::Test {
     plan_.remaining = {"part1"};
   }
 
-  /// Straight from where `from` puts it; 0.09 assembly units from pose to pose.
+  /// A straight path from pose `from`, with 0.09 assembly units between poses.
   std::vector<Pose> poses(const Vec3& way, const Pose& from = {}, int count = 0) const {
     std::vector<Pose> out;
     const int n = count > 0 ? count : std::max(1, static_cast<int>(std::ceil(way.norm() / 0.09)));
@@ -207,7 +207,7 @@ TEST_F(CheckPlan, AssemblyStepsAreJudgedToo) {
   reverse_into_assembly();
   EXPECT_TRUE(check().complete);
   const Plan good = plan_;
-  // A detour of our own: part0 comes from below.
+  // A different path: part0 comes from below.
   plan_.assembly_steps[1].moves[0].poses = poses({0, 0, 6}, shift({0, 0, -6}));
   EXPECT_TRUE(check().valid);
   plan_.assembly_steps[1].moves[0].poses.pop_back();
@@ -232,29 +232,29 @@ TEST_F(CheckPlan, AReverseIsOneOfMotionsNotOfNumbers) {
     }
   EXPECT_TRUE(check().complete);
   plan_ = good;
-  std::swap(plan_.assembly_steps[0], plan_.assembly_steps[1]);  // another order is another matter, and looked at
+  std::swap(plan_.assembly_steps[0], plan_.assembly_steps[1]);  // a different order is checked anew
   plan_.assembly_steps[0].step = 1;
   plan_.assembly_steps[1].step = 2;
   EXPECT_TRUE(check().complete);
 }
 
 TEST_F(CheckPlan, AReverseCountsOnlyIfTheSamePartsStandBy) {
-  // part0 goes up through nothing, since part2, which would be in its way, has left before.
+  // part0 moves up freely, since part2, which would block it, has left before.
   plan_.disassembly = {slide(1, {"part2"}, {{4, 0, 0}}, {{"part2"}}), slide(2, {"part1"}, {{4, 0, 0}}, {{"part1"}})};
   plan_.remaining = {"part0"};
   EXPECT_TRUE(check().complete);
   reverse_into_assembly();
   EXPECT_TRUE(check().complete);
-  // The first step alone is the last one backwards, but here part2 never left and stands where part1 goes through.
+  // The first step alone reverses the last disassembly step, but here part2 never left and blocks part1.
   plan_.assembly_steps[1].moves[0] = {"part1", {Pose{}, Pose{}}};
   expect_problem(1, "assembly step");
 }
 
-/// Both parts lie in a layout beside the rest: each is in the way of whatever runs into it.
+/// Both parts lie in a layout beside the rest, where each is an obstacle for the other.
 TEST_F(CheckPlan, WhatLiesInTheLayoutIsInTheWay) {
   reverse_into_assembly();
   ASSERT_EQ(plan_.assembly_steps.size(), 2u);
-  const auto bring = [&](std::size_t step, const Vec3& from) {  // straight to where the way in begins
+  const auto bring = [&](std::size_t step, const Vec3& from) {  // straight to the start of the insertion
     auto& back = plan_.assembly_steps[step];
     const Pose start = assembly_.normalization.pose_to_internal(back.moves[0].poses.front());
     std::vector<Pose> way = poses(start.t - from, shift(from));
@@ -271,7 +271,7 @@ TEST_F(CheckPlan, WhatLiesInTheLayoutIsInTheWay) {
   EXPECT_TRUE(check().complete);
   const Plan good = plan_;
 
-  // The second lies where the first comes along.
+  // The second part lies on the path of the first.
   plan_ = bare;
   bring(0, first);
   bring(1, bare_goal(0) + Vec3(0, 20, 0) + (bare_place(0) - bare_place(1)));

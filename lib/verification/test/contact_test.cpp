@@ -1,4 +1,4 @@
-// Classes of contact: every sample's pairs have the class and the depth of their truth, wherever the sample stands.
+// Contact classes: all pairs of every sample have the true class and depth, at any pose of the sample.
 #include "dismantle/verification/contact.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ struct PlacedModel {
   std::vector<DepthBody> bodies;
 };
 
-/// In assembly units, at a random place and turned at random.
+/// In assembly units, at a random pose.
 PlacedModel placed_model(samples::Model model, Rng& rng) {
   PlacedModel out;
   Aabb box;
@@ -109,7 +109,7 @@ TEST(Contact, DepthOfRandomPressFitsIsHalfTheInterference) {
   }
 }
 
-/// Boxes one on the other: which class they have follows from how deep they are in each other, and over how much.
+/// Boxes on each other: depth and share of the overlap determine the class.
 TEST(Contact, BoxesByDepth) {
   Rng rng(43);
   for (int i = 0; i < 40; ++i) {
@@ -132,7 +132,7 @@ TEST(Contact, BoxesByDepth) {
   }
 }
 
-/// A ball that cuts into a plate touches it in a small region, and the region is where the ball is.
+/// A ball that penetrates a plate overlaps it in a small region at the ball.
 TEST(Contact, BallsOnPlatesAreLocal) {
   Rng rng(44);
   for (int i = 0; i < 20; ++i) {
@@ -149,7 +149,7 @@ TEST(Contact, BallsOnPlatesAreLocal) {
   }
 }
 
-/// Facets of pin and hole need not match, and neither need be round: the overlap is deep enough on every side.
+/// Facets of pin and hole need not match, and neither must be round: the overlap is deep enough on every side.
 TEST(Contact, PressFitsOfUnequalFacetsAndOfPrismsAreUniform) {
   Rng rng(47);
   for (int i = 0; i < 30; ++i) {
@@ -174,7 +174,7 @@ TEST(Contact, PressFitsOfUnequalFacetsAndOfPrismsAreUniform) {
   }
 }
 
-/// A pin that is deep in one side of its hole only is no press fit.
+/// A pin that penetrates only one side of its hole is no press fit.
 TEST(Contact, PinsOffTheirAxisAreLocal) {
   Rng rng(45);
   for (int i = 0; i < 20; ++i) {

@@ -109,7 +109,7 @@ TEST(PenetrationDepth, AgreesWithSampling) {
   }
 }
 
-/// Two balls that are slow to settle: what is found of them before the first look at the clock is less than the depth.
+/// Two balls that are slow to settle: the depth found before the first stop check is less than the true one.
 TEST(PenetrationDepth, ToldToStopItIsALowerBoundOfLittleWork) {
   Rng rng(9);
   RunContext stopped;

@@ -1,4 +1,4 @@
-// How deep a motion cuts in: closed forms, and brute force over many poses.
+// Depth of a motion against closed forms, and against brute force over many poses.
 #include "dismantle/verification/motion_depth.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ TEST(MotionDepth, WhatPassesCutsInNowhere) {
 }
 
 TEST(MotionDepth, TheOverlapWhenAssembledIsNotExcess) {
-  // A peg 0.1 too thick, pulled along its hole: as deep all the way.
+  // A peg 0.1 too thick, pulled along its hole, has the same depth on the whole path.
   const Assembly assembly = shapes::assembly_of(
       {shapes::tube(0, 1.1, -2, 2, 32, 3), shapes::tube(1, 2, -1.5, 1.5, 32, 3)}, {{0, 1, 0.1 * std::cos(M_PI / 32)}});
   const MotionDepth found = deepest(assembly, {{1, Pose{}}}, {{Pose{}}, {shift({0, 0, 4})}});

@@ -1,4 +1,4 @@
-// A deep overlap is allowed where it was when assembled, in the frame of either part, and nowhere else.
+// A deep overlap is allowed only in its region when assembled, in the frame of either part.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using shapes::Vec3;
 
 constexpr double kTolerance = 0.01;
 
-/// Two parts with the overlap that they have, as preparation measures it.
+/// Two parts with their overlap, as preparation measures it.
 Assembly measured(const Mesh& a, const Mesh& b, bool with_place = true) {
   Assembly assembly = shapes::assembly_of({a, b});
   const DepthBody x(a), y(b);
@@ -39,14 +39,14 @@ MotionCheck check(const Assembly& assembly, const std::vector<Pose>& way) {
   return Verifier(assembly, {kTolerance}).check_motion({0}, {{1, Pose{}}}, path);
 }
 
-/// A pin with a nose on its side, through a plate that has a wall beside the way of the nose: nearer or further.
+/// A pin with a nose on its side, through a plate with a wall beside the path of the nose, at varying distance.
 struct PinAndWall {
   Mesh pin, plate;
   PinAndWall(double press, double cut, int sides) {
     pin = joined(shapes::tube(0, 1 + press, -3, 3, sides, 2), box({1.5, -0.4, -2.9}, {2.5, 0.4, -1.9}));
     pin = joined(pin, box({0, -0.4, -2.9}, {2, 0.4, -2.3}));
     plate = shapes::tube(1, 1.4, -1, 1, sides, 1);
-    plate = joined(plate, box({2.5 - cut, -1, -6}, {4, 1, -4}));  // below the plate, where the nose comes by
+    plate = joined(plate, box({2.5 - cut, -1, -6}, {4, 1, -4}));  // below the plate, beside the path of the nose
   }
 };
 
@@ -92,7 +92,7 @@ struct Blocks {
   std::vector<Aabb> a, b;
 };
 
-/// Deepest point of one in the other along a straight way that is outside the region grown by `more`; by samples.
+/// Greatest sampled depth along a straight path, of points outside the region grown by `more`.
 double deepest_outside(const Blocks& blocks, const Vec3& way, Aabb region, double more) {
   region.inflate(more);
   double worst = 0;
@@ -116,7 +116,7 @@ double deepest_outside(const Blocks& blocks, const Vec3& way, Aabb region, doubl
   return worst;
 }
 
-/// A block that is in another when assembled slides along it, past a third that it may be in as deep.
+/// A block that overlaps another slides along it, past a third block that it may penetrate as deep.
 TEST(OverlapRegion, AgreesWithSamplesOnRandomBlocks) {
   Rng rng(2);
   int refused = 0, accepted = 0, unclear = 0;

@@ -1,4 +1,4 @@
-// The verifier on several threads, and told to stop.
+// The verifier on several threads, and when told to stop.
 #include <gtest/gtest.h>
 
 #include "dismantle/errors.h"
@@ -12,8 +12,8 @@ namespace {
 
 using shapes::Vec3;
 
-/// A ball through a row of frames of random width: some it clears, some it touches, some it cuts. In one segment, of
-/// which all pairs are looked at together, or in two.
+/// A ball passes a row of frames of random width: it clears, touches or penetrates them. In one segment, so that all
+/// pairs are checked in parallel, or in two.
 struct Row {
   Row(Rng& rng, double tight, bool in_one) {
     std::vector<Mesh> meshes{shapes::sphere(Vec3::Zero(), 0.5, 3)};
@@ -80,7 +80,7 @@ TEST(VerifierThreads, ToldToStopItSaysSoAndNothingElse) {
   }
 }
 
-/// Small parts are made ready all the same, so that what was found until then can be checked.
+/// Small parts are prepared even when told to stop, so that the results so far can be checked.
 TEST(VerifierThreads, ToldToStopItIsBuiltOnlyOfSmallParts) {
   RunContext context;
   context.cancel.cancel();

@@ -28,7 +28,7 @@ Path path_of(const std::vector<Pose>& poses) {
   return path;
 }
 
-/// `moving` (part 0) along the poses, part 1 still at the origin.
+/// Checks part 0, `moving`, along the poses, with part 1 fixed at the origin.
 MotionCheck check(const Mesh& moving, const Mesh& fixed, const std::vector<Pose>& poses, double most = 0.01,
                   double overlap = 0) {
   std::vector<InitialOverlap> overlaps;
@@ -51,7 +51,7 @@ TEST(Verifier, FreeMotionIsAcceptedWithATinyBound) {
   EXPECT_FALSE(c.violation.has_value());
 }
 
-/// Groups of boxes, turned or not: where the way ends, the hulls are apart, and a little before they are not.
+/// Groups of boxes, turned or not: the hulls are apart at the end of the path, and not slightly earlier.
 TEST(Verifier, AWayEndsWhereTheHullsComeApart) {
   Rng rng(21);
   int found = 0;
@@ -87,7 +87,7 @@ TEST(Verifier, AWayEndsWhereTheHullsComeApart) {
       EXPECT_FALSE(apart_after(before)) << way;
       ++found;
     }
-    // By all vertices: no plane across the way parts them before.
+    // By all vertices: no plane across the path separates them earlier.
     double top = -1e9, bottom = 1e9;
     for (const auto& p : group)
       for (const auto& v : meshes[p.part].vertices) top = std::max(top, -d.dot(p.pose * v));
@@ -117,7 +117,7 @@ TEST(Verifier, KissingSlideIsOneCheapSweep) {
   EXPECT_TRUE(c.valid);
   EXPECT_LE(c.max_penetration, 1e-4);
   EXPECT_LE(c.tests, 3 * (peg.triangles.size() + tube.triangles.size()));
-  // The same with a hundred poses that waver a little.
+  // The same with a hundred poses with small deviations.
   std::vector<Pose> poses;
   for (int i = 0; i <= 100; ++i) poses.push_back(shift(way * i / 100 + random_vector(rng, -1e-5, 1e-5)));
   const MotionCheck many = check(shapes::moved(peg, world), shapes::moved(tube, world), poses);
@@ -154,7 +154,7 @@ TEST(Verifier, FirstContactOfMovingBoxesIsFoundWhereItMustBe) {
     }
     if (depth > 0.01) {
       ASSERT_FALSE(c.valid) << depth;
-      // Nothing can be wrong before the face is 0.01 deep.
+      // No violation is possible before the face is 0.01 deep.
       EXPECT_GE(c.violation->u, (gap + 0.01) / reach - 1e-9);
     }
     if (c.valid) {
@@ -212,7 +212,7 @@ TEST(Verifier, InitialOverlapIsAllowedButNotMore) {
   EXPECT_TRUE(check(bolt, plate, out, 0.01, overlap).valid);
   EXPECT_FALSE(check(bolt, plate, {Pose{}, shift({0.02, 0, 0})}, 0.01, overlap).valid);
   EXPECT_FALSE(check(bolt, plate, out).valid);  // the allowance belongs to the pair
-  // ... and does not loosen another: the same bolt past a second plate that it does not overlap.
+  // ... and does not extend to another pair: the same bolt past a second plate that it does not overlap.
   const Mesh second = shapes::moved(shapes::tube(1.05, 3, -0.5, 0.5, 48, 1), shift({0.03, 0, 2.6}));
   const Verifier verifier(assembly_of({bolt, plate, second}, {{0, 1, overlap}}), {0.01});
   const MotionCheck c = verifier.check_motion({0}, {{1, Pose{}}, {2, Pose{}}}, path_of(out));
@@ -303,7 +303,7 @@ TEST(Verifier, MovingPartsAreJudgedAgainstEachOther) {
   EXPECT_TRUE(overlapping.check_motion({0, 1}, base, together).valid);
   const Pose lift = shift({0, 0, 3}), twist = turn(1.0, Vec3::UnitY()) * lift;
   EXPECT_TRUE(overlapping.check_motion({0, 1}, base, {{Pose{}, Pose{}}, {lift, lift}, {twist, twist}}).valid);
-  // One faster than the other is fine, one through the other is not.
+  // Different speeds are valid, passing through each other is not.
   EXPECT_TRUE(verifier.check_motion({0, 1}, base, {{Pose{}, Pose{}}, {shift({0, 0, 3}), shift({0, 0, 1})}}).valid);
   const MotionCheck c =
       verifier.check_motion({0, 1}, base, {{Pose{}, Pose{}}, {shift({.2, 0, 3}), shift({-.2, 0, 3})}});
@@ -343,7 +343,7 @@ TEST(Verifier, AgreesWithDenseSamplingOnRandomMotions) {
 }
 
 TEST(Verifier, BoundIsOnTheLadderAndCertified) {
-  // A slab pushed 0.0015 into another and on along it.
+  // A slab pushed 0.0015 into another and then along it.
   const Mesh slab = shapes::box({-1, -1, 0}, {1, 1, 1}), floor = shapes::box({-9, -9, -2}, {9, 9, 0});
   const MotionCheck c = check(slab, floor, {Pose{}, shift({1, 0, -0.0015}), shift({4, 0, -0.0015}), shift({4, 0, 2})});
   ASSERT_TRUE(c.valid);
@@ -380,7 +380,7 @@ TEST(Verifier, ApartMeansHullsApart) {
   EXPECT_FALSE(verifier.apart({{1, shift({0, 0, .2})}}, {{0, Pose{}}}));
   EXPECT_TRUE(verifier.apart({{1, shift({0, 0, .201})}}, {{0, Pose{}}}));
   EXPECT_TRUE(verifier.apart({{1, Pose{}}}, {}));
-  // Two parts left and right of a third: their common hull holds it.
+  // Two parts left and right of a third: their common hull contains it.
   EXPECT_FALSE(verifier.apart({{2, Pose{}}}, {{0, shift({3, 0, 0})}, {1, shift({-3, 0, 0})}}));
   EXPECT_TRUE(verifier.apart({{2, shift({0, 0, 2})}}, {{0, shift({3, 0, 0})}, {1, shift({-3, 0, 0})}}));
 }

@@ -26,7 +26,7 @@ TEST(VerifyBudget, PenetrationIsReportedAsAShareOfTheTolerance) {
   }
 }
 
-/// What a small budget accepts a large one accepts, and what it refuses for want of tests is uncertain.
+/// A large budget accepts every motion that a small one accepts. Motions refused for lack of budget are uncertain.
 TEST(VerifyBudget, ASmallBudgetRefusesWithoutAProof) {
   const Mesh disc = shapes::tube(0, 2, -.2, .2, 64), housing = shapes::tube(2, 3, -.4, .4, 64);
   const Assembly assembly = shapes::assembly_of({disc, housing}, {});

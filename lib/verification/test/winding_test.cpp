@@ -1,4 +1,4 @@
-// Many turns of one screw motion, written down in many poses.
+// Many turns of one screw motion, given by many poses.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -131,7 +131,7 @@ TEST(Winding, FollowsAThreadAndSeesWhereItIsBlockedOrHasTheWrongLead) {
     EXPECT_FALSE(valid({t.screw.origin, t.screw.axis, 1.05 * t.screw.pitch}, angle));
     EXPECT_FALSE(
         valid({t.screw.origin + 0.2 * t.screw.axis.unitOrthogonal(), t.screw.axis, 0.5 * t.screw.pitch}, angle));
-    // Something in the groove, half a radian before the nut's front end gets to its last place.
+    // An obstacle in the groove, half a radian before the final position of the nut's front end.
     const Vec3 at = t.screw.origin + 2 * t.screw.axis.unitOrthogonal() + 0.5 * kLead * t.screw.axis;
     const Vec3 half = Vec3::Constant(0.02);
     shapes::append(t.bolt,

@@ -15,7 +15,7 @@ ActiveSamples::ActiveSamples(const SampledPair& pair, SampleList initial, double
   all_.samples = std::move(numbers);
 }
 
-/// Drops samples that stay outside in all of the cell. Repeated only when the cell has become half as large.
+/// Drops samples that stay outside in the whole cell. Repeated only when the cell has shrunk to half.
 void ActiveSamples::update(const PoseCell& cell, const RelativePose& pose, NearSamples& near) const {
   const Vector6 half = 0.5 * cell.size();
   const double turn = half.head<3>().norm(), shift = half.tail<3>().norm();

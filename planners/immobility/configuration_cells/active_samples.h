@@ -1,4 +1,4 @@
-/// The active set: few samples bound the motion of two parts, and they are found where they are missed.
+/// The active set: the few samples that bound the motion of two parts, added where the decomposition needs them.
 #pragma once
 
 #include <limits>
@@ -10,10 +10,10 @@
 
 namespace dismantle::immobility {
 
-/// Samples that may be inside their obstacle somewhere in a cell. Cells that it is divided into inherit them.
+/// Samples that may be inside their obstacle somewhere in a cell. Its halves inherit them.
 struct NearSamples {
   std::shared_ptr<const SampleList> samples;
-  /// The displacement within the cell for which the others were left out; assembly units.
+  /// The displacement within the cell for which the other samples were left out; assembly units.
   double reach = std::numeric_limits<double>::infinity();
 };
 
@@ -23,14 +23,15 @@ class ActiveSamples {
   ActiveSamples(const SampledPair& pair, SampleList initial, double tolerance);
 
   const SampleList& list() const { return list_; }
-  /// All samples: for a cell of which nothing is known.
+  /// All samples, for a cell without further information.
   const NearSamples& all() const { return all_; }
   /// Activates the sample that is deepest inside its obstacle at the centre of the cell, if any is inside. Updates
   /// `near`.
   void activate_deepest(const PoseCell& cell, NearSamples& near);
-  /// Is no sample inside, active or not? The samples of the cell around the pose are tested first.
+  /// True if no sample is inside, active or not. The samples of the cell around the pose are tested first.
   bool is_free(const Vector6& x, const PoseCell& around) const;
-  /// Is no active sample inside along the segment between two poses? Checks poses a step apart, so this is no proof.
+  /// True if no active sample is inside along the segment between two poses. Checks discrete poses, so this is no
+  /// proof.
   bool is_free(const Vector6& from, const Vector6& to) const;
 
  private:

@@ -1,4 +1,4 @@
-/// Proof that two parts cannot be separated: a region of relative poses that none of their motions leaves.
+/// Proof that two parts cannot be separated: a region of relative poses that no motion leaves.
 #pragma once
 
 #include <cstddef>
@@ -20,17 +20,17 @@ struct ConfigurationCage {
   DecompositionProof proof;
 };
 
-/// Does every motion of `a` relative to `b` that begins assembled, and along which nothing penetrates by `depth` (> 0)
-/// or more, stay within a region? Nothing: not proved with the effort of `params`, or told to stop. `tolerance` (> 0,
-/// assembly units) is the unit of lengths in `params`.
+/// Considers motions of `a` relative to `b` that begin assembled and penetrate by less than `depth` (> 0). Finds a
+/// region that none of them leaves. Returns nullopt if not proved with the effort of `params`, or told to stop.
+/// `tolerance` (> 0, assembly units) is the unit of lengths in `params`.
 ///
-/// The proof, by approximate cell decomposition (Lozano-Perez 1983; Zhang, Kim and Manocha 2008). Interior samples stay
-/// outside of their obstacles. A box of poses around the assembled one is divided into cells; contract() bounds the
+/// The proof is by approximate cell decomposition (Lozano-Perez 1983; Zhang, Kim and Manocha 2008). Interior samples
+/// stay outside their obstacles. A box of poses around the assembled one is divided into cells; contract() bounds the
 /// free poses of each. Two cells are neighbours when these bounds touch. A motion out of the box passes through
 /// neighbours up to its border. So when no chain of neighbours leads from the cell of the assembled pose to the border,
-/// there is no such motion. Only cells on a chain that does lead there are divided further. Where chains keep leading
-/// to the same side, the box grows by a cell on that side, and the random search is sent there: what it reaches has to
-/// be in the box, and if it separates the parts there is nothing to prove.
+/// there is no such motion. Only cells on a chain to the border are divided further. Where chains keep leading to the
+/// same side, the box grows by a cell on that side, and the random search is directed there. Poses that it reaches must
+/// be in the box, and if it separates the parts, there is nothing to prove.
 std::optional<ConfigurationCage> cage_by_configuration_cells(const std::vector<Solid>& a, const std::vector<Solid>& b,
                                                              double depth, double tolerance,
                                                              const ConfigurationCellsParams& params,

@@ -9,7 +9,7 @@ namespace {
 
 bool any_side(const SearchBox::Sides& sides) { return std::find(sides.begin(), sides.end(), true) != sides.end(); }
 
-/// Is the assembled pose in the cell?
+/// True if the assembled pose is in the cell.
 bool holds_start(const PoseCell& c) { return !c.empty && (c.lo.array() <= 0).all() && (c.hi.array() >= 0).all(); }
 
 }  // namespace
@@ -51,8 +51,8 @@ CellStatus CellDecomposition::status(const PoseCell& cell) const {
 
 double CellDecomposition::extent(const PoseCell& cell) const { return cell.size().cwiseProduct(scale_).maxCoeff(); }
 
-/// Of the cells on the path: the largest one whose centre is blocked, since dividing that is most likely to cut the
-/// path; or the largest one, if the blocked ones are clearly smaller.
+/// Selects the largest cell on the path whose centre is blocked, since dividing it most likely cuts the path. Selects
+/// the largest cell of all if the blocked ones are clearly smaller.
 std::uint32_t CellDecomposition::to_divide(std::uint32_t exit) const {
   std::uint32_t blocked = kNoIndex, any = kNoIndex;
   double blocked_extent = 0, any_extent = 0;
@@ -117,7 +117,7 @@ void CellDecomposition::grow(const SearchBox::Sides& sides) {
 
 CellDecomposition::End CellDecomposition::run(const RunContext& context) {
   const auto most = static_cast<std::size_t>(params_.max_divisions);
-  // The sampler gets a third of its first checks whenever it is sent out.
+  // Each extension of the sampler gets a third of its first state checks.
   const auto checks = static_cast<std::size_t>(params_.walk_checks) / 3;
   for (std::size_t round = 1; round <= most; ++round) {
     if (context.should_stop()) return End::open;
@@ -125,11 +125,11 @@ CellDecomposition::End CellDecomposition::run(const RunContext& context) {
     if (exit == kNoIndex) return closed() ? End::closed : End::open;
     activate_along(exit);
     std::uint32_t node = to_divide(exit);
-    // The centre of a cell tells something of it only if the cell is small.
+    // The centre represents a cell only if the cell is small.
     const double small = box_.extent() / 16;
     box_.record_exit(cells_[exit], extent(cells_[exit]) < small, round);
     SearchBox::Sides sides = box_.persistent_sides(round);
-    // Of a path through large cells the check is seldom worth its time, so it is made in every 16th round only.
+    // On a path through large cells the check is seldom worth its time, so it runs only in every 16th round.
     if (cells_[node].center_free && (round % 16 == 0 || extent(cells_[node]) < small)) {
       if (const std::uint32_t blocked = blocked_at(exit); blocked != kNoIndex) {
         node = blocked;
@@ -157,7 +157,7 @@ CellDecomposition::End CellDecomposition::run(const RunContext& context) {
   return End::spent;
 }
 
-/// Are the parts separated, or is the volume of their free poses too large for the divisions?
+/// True if the parts are separated, or the volume of their free poses is too large for the divisions.
 bool CellDecomposition::beyond_limits() const {
   if (sampler_.separated()) return true;
   const Vector6 most = (-box_.lo()).cwiseMax(box_.hi());

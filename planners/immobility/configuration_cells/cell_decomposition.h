@@ -20,26 +20,26 @@ class CellDecomposition {
  public:
   enum class End {
     closed,  ///< no chain of cells leads from the assembled pose to the border
-    open,    ///< a chain does that cannot be divided; or the parts move beyond the limits; or told to stop
+    open,    ///< a chain that cannot be divided leads there; or the parts move beyond the limits; or told to stop
     spent,   ///< no divisions are left
   };
 
   struct Scale {
-    double max_shift;  ///< parts that move further are taken for separable; assembly units
+    double max_shift;  ///< parts that move further count as separable; assembly units
     double tolerance;  ///< the unit of the lengths of the parameters; assembly units
   };
 
-  /// The first box holds the poses of the sampler, and the samples that blocked it are active. More are activated as
-  /// they are needed, and the sampler is sent where cells lead to.
+  /// The first box contains the poses of the sampler, and the samples that blocked it are active. Further samples are
+  /// activated as needed, and the sampler is directed to where cells lead.
   CellDecomposition(const SampledPair& pair, FreeSpaceSampler& sampler, const ConfigurationCellsParams& params,
                     const Scale& scale, ForkJoin& fork_join);
 
   End run(const RunContext& context);
-  /// closed: what the proof is made of.
+  /// After `closed`: the content of the certificate.
   DecompositionProof proof(std::uint32_t solids_of_a) const {
     return record_.proof(pair_, solids_of_a, box_.lo(), box_.hi());
   }
-  /// closed: bounds of the component of the assembled pose.
+  /// After `closed`: bounds of the component of the assembled pose.
   const PoseCell& bounds() const { return bounds_; }
 
  private:
@@ -72,7 +72,7 @@ class CellDecomposition {
   CellGraph<Cell> cells_;
   PoseCell bounds_;
   std::size_t sent_at_ = 0,
-              pause_;  ///< the last round in which the sampler was sent out, and the rounds until the next
+              pause_;  ///< last round with an extension of the sampler, and rounds until the next
 };
 
 }  // namespace dismantle::immobility

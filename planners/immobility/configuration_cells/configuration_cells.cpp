@@ -14,37 +14,39 @@ void ConfigurationCellsParams::describe(Schema<ConfigurationCellsParams>& s) {
         {.unit = "1",
          .min = 1,
          .doc = "State checks of the random search that precedes the proof. If it separates the parts, no proof is "
-                "tried; too few checks waste time on proofs that must fail."});
+                "tried. Too few checks waste time on proofs that must fail."});
   s.add("max_divisions", &ConfigurationCellsParams::max_divisions,
         {.unit = "1",
          .min = 1,
-         .doc = "Cells of relative poses that are divided before the proof is given up. Time grows in proportion: "
-                "about half a minute for the default."});
+         .doc = "Limit of divided cells of relative poses, after which the proof is given up. Time grows in "
+                "proportion: about half a minute for the default."});
   s.add("patience", &ConfigurationCellsParams::patience,
         {.unit = "1",
          .min = 1,
-         .doc = "Advanced. Divisions without progress after which the random search is sent to where cells lead, and "
-                "after which the decomposed box grows on a side that all of them lead to. Less reacts sooner to long "
-                "free motions, more spends fewer state checks."});
+         .doc = "Advanced. Divisions without progress after which the random search extends to where cells lead, and "
+                "the decomposed box grows on a side to which all of them lead. Lower values react sooner to long free "
+                "motions, higher values spend fewer state checks."});
   s.add("sample_spacing", &ConfigurationCellsParams::sample_spacing,
         {.unit = "verify.max_penetration",
          .min = 0,
          .min_open = true,
-         .doc = "Advanced. Distance between the points inside the parts of which the proof is made. Fewer points are "
-                "faster, and miss contacts of small features. Large parts have a larger one, so that each has at most "
-                "some thousand points."});
+         .doc = "Advanced. Distance between the interior points that the proof uses. Fewer points are faster, but miss "
+                "contacts of small features. It is larger in large parts, so that each part has at most a few thousand "
+                "points."});
   s.add("smallest_cell", &ConfigurationCellsParams::smallest_cell,
         {.unit = "verify.max_penetration",
          .min = 0,
          .min_open = true,
-         .doc = "Advanced. Cells whose poses differ by less displacement are not divided; if a way out leads through "
-                "one, the proof is given up."});
-  s.add("separation", &ConfigurationCellsParams::separation,
-        {.unit = "verify.max_penetration",
-         .min = 0,
-         .min_open = true,
-         .doc = "Advanced. Displacement at which the random search takes the parts for separated, or the radius of "
-                "the smaller part, if that is more. It has to be more than parts that are held can slide."});
+         .doc = "Advanced. Cells with a smaller displacement between their poses are not divided. If a way out leads "
+                "through one, the proof is given up."});
+  s.add(
+      "separation", &ConfigurationCellsParams::separation,
+      {.unit = "verify.max_penetration",
+       .min = 0,
+       .min_open = true,
+       .doc =
+           "Advanced. Displacement at which the random search counts the parts as separated, or the radius of the "
+           "smaller part, if that is more. It must exceed the distance that parts can slide without being separated."});
 }
 
 std::optional<Certificate> ConfigurationCells::prove(const SeparationQuery& query, const RunContext& context) const {

@@ -8,7 +8,7 @@
 
 namespace dismantle::immobility {
 
-/// Lengths are multiples of the tolerance. All of these decide only how hard a proof is tried.
+/// Lengths are multiples of the tolerance. The parameters affect only the effort, not the soundness of a proof.
 struct ConfigurationCellsParams {
   std::int64_t walk_checks = 6000;
   std::int64_t max_divisions = 100'000;

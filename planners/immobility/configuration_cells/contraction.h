@@ -1,4 +1,4 @@
-/// How a cell was contracted, so that it can be checked: which faces moved, and the half spaces that moved them.
+/// Record of the contraction of a cell, for checking: the moved faces, and the half spaces that moved them.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ struct Reason {
 struct FaceMove {
   static constexpr int kEmpty = 12;  ///< no face: the half spaces have no common point in the cell
   int face = kEmpty;                 ///< 2 k or 2 k + 1: the lower or the upper one of coordinate k
-  double to = 0;                     ///< the coordinate; nothing for kEmpty
+  double to = 0;                     ///< new coordinate of the face; unused for kEmpty
   std::vector<Reason> reasons;
 };
 
-/// Half spaces are those of the cell as it is at the beginning of a round.
+/// By round. The half spaces are those of the cell at the beginning of the round.
 using Contraction = std::vector<std::vector<FaceMove>>;
 
 }  // namespace dismantle::immobility

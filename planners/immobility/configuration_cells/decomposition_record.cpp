@@ -10,7 +10,7 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-// What follows in the list `tree`: see the README.
+// Entries of the list `tree`, see the README.
 enum Entry { kLeaf, kCut, kRound, kMove };
 
 }  // namespace
@@ -34,7 +34,7 @@ class DecompositionRecord::Writer {
       : record_(record), pair_(pair), solids_of_a_(solids_of_a) {}
 
   DecompositionProof write() {
-    // The last slab that was added is cut off first, then the one before it; what is left in the end is the first cell.
+    // Cuts off the slabs in reverse order of their addition; the first cell remains.
     std::vector<std::uint32_t> above;
     for (auto slab = record_.slabs_.rbegin(); slab != record_.slabs_.rend(); ++slab) {
       cut(slab->axis, slab->at);
@@ -89,7 +89,7 @@ class DecompositionRecord::Writer {
     }
   }
 
-  /// Its number in the list of points, where it is added.
+  /// Index of the sample in the list of points; adds it if it is new.
   std::size_t point_of(std::uint32_t number) {
     const auto [known, fresh] = points_.try_emplace(number, points_.size());
     if (fresh) {

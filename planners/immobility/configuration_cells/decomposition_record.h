@@ -1,4 +1,4 @@
-/// How the box of poses was divided and the cells were contracted: what a certificate is made of.
+/// Record of the divisions of the box of poses and the contractions of cells, from which the certificate is made.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace dismantle::immobility {
 
 /// Lists of numbers of a certificate; see the README for their order. Lengths and places are in assembly units.
 struct DecompositionProof {
-  std::vector<double> points;  ///< 5 each: is it of `a`; the obstacle's place among the solids of the other; x, y, z
+  std::vector<double> points;      ///< 5 each: 1 if of `a`, else 0; index of the obstacle in the other part; x, y, z
   std::vector<double> directions;  ///< 3 each, unit vectors
   std::vector<double> box;         ///< 12: of all cells, lower and upper bounds
   std::vector<double> tree;
@@ -22,14 +22,14 @@ struct DecompositionProof {
 
 class DecompositionRecord {
  public:
-  /// The next cell. Cells have the numbers that they have in the decomposition, by the order in which they are added.
+  /// Adds the next cell. Cells are numbered as in the decomposition, in the order in which they are added.
   void add(Contraction made) { nodes_.push_back({std::move(made), -1, 0, 0}); }
-  /// The cell is divided across a coordinate. Its halves are the next two.
+  /// Divides a cell across a coordinate. Its halves are the next two cells.
   void divide(std::uint32_t cell, int axis, double at, Contraction below, Contraction above);
-  /// The box has grown beyond `at`, by the cell that comes next.
+  /// Grows the box beyond `at` by the next cell.
   void grow(int axis, bool upper, double at, Contraction slab);
 
-  /// Of the box with those bounds. The solids of `a` come first among the obstacles of the pair.
+  /// The proof for the box with those bounds. The solids of `a` come first among the obstacles of the pair.
   DecompositionProof proof(const SampledPair& pair, std::uint32_t solids_of_a, const Vector6& lo,
                            const Vector6& hi) const;
 

@@ -5,7 +5,8 @@
 
 namespace dismantle::immobility {
 
-// The largest first step is a bit shorter than the tolerance: walls are thicker than that, so steps do not jump them.
+// The largest first step is slightly shorter than the tolerance. Walls are thicker than that, so steps do not jump over
+// them.
 FreeSpaceSampler::FreeSpaceSampler(const SampledPair& pair, double separated, double tolerance)
     : pair_(pair), separated_(separated), stride_(0.6 * tolerance) {
   for (std::uint32_t i = 0; i < pair.samples().size(); ++i) order_.push_back(i);
@@ -97,7 +98,7 @@ std::vector<std::size_t> FreeSpaceSampler::nearest(const Vector6& to) const {
   return result;
 }
 
-/// Extends straight on, with steps that grow by 15 % up to fivefold, until a pose is blocked at the first step size.
+/// Extends along a ray, with steps that grow by 15 % up to fivefold, until a pose is blocked at the first step size.
 /// Returns the last pose.
 std::size_t FreeSpaceSampler::extend_ray(std::size_t from, const Vector6& step) {
   double faster = 1;

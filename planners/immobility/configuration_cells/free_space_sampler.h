@@ -16,15 +16,15 @@ namespace dismantle::immobility {
 /// way out.
 class FreeSpaceSampler {
  public:
-  /// Parts whose shift exceeds `separated` count as separated. Steps are shorter than `tolerance` at first; assembly
+  /// Parts whose shift exceeds `separated` count as separated. The first steps are shorter than `tolerance`; assembly
   /// units.
   FreeSpaceSampler(const SampledPair& pair, double separated, double tolerance);
 
   /// Makes `checks` state checks in all directions.
   void explore(std::size_t checks, const RunContext& context);
-  /// Makes up to `checks` state checks in the direction of a pose and beyond it.
+  /// Makes up to `checks` state checks towards a pose and beyond it.
   void extend_towards(const Vector6& to, std::size_t checks, const RunContext& context);
-  /// Adds a pose that was found to be free otherwise.
+  /// Adds a pose that is known to be free from elsewhere.
   void add(const Vector6& pose);
 
   bool separated() const { return is_separated_; }

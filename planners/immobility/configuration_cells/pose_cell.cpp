@@ -126,7 +126,7 @@ bool gather(PoseCell& cell, const SampledPair& pair, Rows& rows, std::vector<Fac
         moves.push_back({FaceMove::kEmpty, 0, {{number, h.source, 1.0}}});
         return false;
       }
-      if (!(b < 0.95 * most)) continue;  // one that cuts off less is not worth the time of its row
+      if (!(b < 0.95 * most)) continue;  // a row that cuts off less is not worth its time
       polytope.add(a, b);
       rows.sources.push_back({number, h.source});
     }
@@ -135,7 +135,7 @@ bool gather(PoseCell& cell, const SampledPair& pair, Rows& rows, std::vector<Fac
   return true;
 }
 
-/// Few decimal digits of multipliers will do: any that are not negative prove a bound.
+/// Rounds multipliers to few decimal digits: any that are not negative prove a bound.
 void shorten(Multipliers& multipliers) {
   for (auto& [row, y] : multipliers) {
     const double unit = std::pow(10, 5 - std::ceil(std::log10(y)));
@@ -143,7 +143,7 @@ void shorten(Multipliers& multipliers) {
   }
 }
 
-/// Upper bound of direction . x, by the multipliers.
+/// Upper bound of direction . x from the multipliers.
 double bound_of(const Vector6& direction, const Rows& rows) {
   Vector6 left = direction;
   double sum = 0;
@@ -154,7 +154,7 @@ double bound_of(const Vector6& direction, const Rows& rows) {
   return sum + left.cwiseProduct(rows.polytope.lo).cwiseMax(left.cwiseProduct(rows.polytope.hi)).sum();
 }
 
-/// The next number above x of few decimal digits, more than 1e-7 of the width above it.
+/// The next number with few decimal digits that is at least 1e-7 of the width above x.
 double rounded_up(double x, double width) {
   const double unit = std::pow(10, std::ceil(6 - std::log10(width)));
   return std::isfinite(unit) ? std::ceil((x + 1e-7 * width) * unit) / unit : x;

@@ -26,10 +26,10 @@ struct PoseCell {
 };
 
 /// Makes the cell smaller, or empty, without loss of a free pose. A face that does not move keeps its exact coordinate.
-/// `active`: samples to use; the list may only have grown since the last call. What was done is added to `made`.
+/// `active`: samples to use; the list may only grow between calls. Appends the moves to `made`.
 ///
-/// How: over the cell, the first order form of a sample's position and a bound of the remainder give a box that holds
-/// the sample (the second derivative of the exponential map has norm 1 at most, times the distance from the centre).
+/// Over the cell, the first order form of a sample's position and a bound of the remainder give a box that contains the
+/// sample (the second derivative of the exponential map has norm 1 at most, times the distance from the centre).
 /// free_space_bound() of that box gives half spaces of the six coordinates, and linear programs bound their
 /// intersection with the cell.
 void contract(PoseCell& cell, const SampledPair& pair, const SampleList& active, Contraction& made);

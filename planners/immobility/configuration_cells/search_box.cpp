@@ -5,13 +5,13 @@
 namespace dismantle::immobility {
 namespace {
 
-// Share of the box by which a side moves out the first time: much less takes many rounds, much more adds free space
-// that has to be divided.
+// Share of the box by which a side moves out the first time. Much less takes many rounds, much more adds free space
+// that must be divided.
 constexpr double kFirstGrowth = 0.15;
 
 }  // namespace
 
-// The least margin is two tolerances: about the play that parts have where they touch.
+// The least margin is two tolerances: about the range of motion of parts that touch.
 SearchBox::SearchBox(const FreeSpaceSampler& sampler, const Vector6& scale, std::size_t patience, double tolerance)
     : scale_(scale),
       patience_(patience),
@@ -21,7 +21,7 @@ SearchBox::SearchBox(const FreeSpaceSampler& sampler, const Vector6& scale, std:
   growth_.fill(kFirstGrowth);
 }
 
-/// A fifth of the range of the sampled poses, since a random search does not get to the end of it.
+/// A fifth of the range of the sampled poses, since a random search does not reach the end of the free range.
 Vector6 SearchBox::margin(const FreeSpaceSampler& sampler) const {
   return 0.2 * (sampler.hi() - sampler.lo()) + least_margin_ * scale_.cwiseInverse();
 }
@@ -86,7 +86,7 @@ PoseCell SearchBox::grow(int d, bool upper, const FreeSpaceSampler& sampler) {
   if (needed > by)
     by = needed;
   else
-    share *= 1.6;  // a long way on that side takes a few growths, not one for each length of the box
+    share *= 1.6;  // a long free motion on that side needs only a few growths
   PoseCell slab;
   slab.lo = lo_;
   slab.hi = hi_;

@@ -1,4 +1,4 @@
-/// The box of poses that is decomposed: on which sides it should grow, and by how much.
+/// The box of poses that is decomposed. Decides on which sides it should grow, and by how much.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ class SearchBox {
   using Sides = std::array<bool, 12>;
   static std::size_t side(int coordinate, bool upper) { return 2 * static_cast<std::size_t>(coordinate) + upper; }
 
-  /// Holds all poses of the sampler, with a margin. `scale`: assembly units per unit of each coordinate. `patience`:
-  /// rounds for which all paths have to lead to a side before it counts as persistent. `tolerance`: assembly units.
+  /// Contains all poses of the sampler, with a margin. `scale`: assembly units per unit of each coordinate. `patience`:
+  /// rounds in which all paths must lead to a side before the side counts as persistent. `tolerance`: assembly units.
   SearchBox(const FreeSpaceSampler& sampler, const Vector6& scale, std::size_t patience, double tolerance);
 
   const Vector6& lo() const { return lo_; }
@@ -33,11 +33,11 @@ class SearchBox {
   /// Records that a path led to that cell on the border. `small`: a large cell may touch many sides, so it resets the
   /// record.
   void record_exit(const PoseCell& cell, bool small, std::size_t round);
-  /// Sides to which all recent paths have led, if there are any: most likely the parts can move there.
+  /// Sides to which all recent paths have led, if any. Most likely the parts can move there.
   Sides persistent_sides(std::size_t round) const;
   /// Sides beyond which the sampler has a pose.
   Sides sides_exceeded(const FreeSpaceSampler& sampler) const;
-  /// Moves a side out, beyond the poses of the sampler, and further each time. Returns the part of the box that is new.
+  /// Moves a side out beyond the poses of the sampler, further each time. Returns the new part of the box.
   PoseCell grow(int coordinate, bool upper, const FreeSpaceSampler& sampler);
   /// Forgets the recorded exits.
   void restart(std::size_t round) { restarted_at_ = round; }

@@ -114,8 +114,8 @@ double DiameterClearance::free_half_length(const Vec3& from, const Vec3& normal,
   return longest;
 }
 
-/// The points in which the outer lines through the corners of the box meet a plane. False: some do not within the
-/// radius, or not from the same side.
+/// Intersections of a plane with the outer lines through the corners of the box. False: some lines do not meet it
+/// within the radius, or not from the same side.
 ///
 /// For a fixed c, the intersection of the line from c along d with the plane is a central projection of d, which keeps
 /// betweenness while d stays on one side of the plane. For a fixed d it is linear in c. So the intersections of all
@@ -139,7 +139,7 @@ bool DiameterClearance::intersect(const FacetPlane& plane, const Aabb& box, cons
   return true;
 }
 
-/// Do all lines meet facets in that plane, within the radius?
+/// True if all lines meet facets in that plane, within the radius.
 bool DiameterClearance::blocks(std::uint32_t number, const Aabb& box, const Lines& lines) {
   const FacetPlane& plane = facets_.planes()[number];
   if (!intersect(plane, box, lines, -radius_, radius_, points_)) return false;
@@ -147,10 +147,10 @@ bool DiameterClearance::blocks(std::uint32_t number, const Aabb& box, const Line
   return facets_.covers(number, points_, near_);
 }
 
-/// Does each line meet a facet in one of those planes, within the radius, forward (`side` 1) or backward (-1)?
+/// True if each line meets a facet in one of those planes, within the radius, forward (`side` 1) or backward (-1).
 ///
-/// The box is behind all of the planes, and all lines lead towards all of them. Where a line passes the first of them,
-/// it is still behind the others: so only the part of each plane that is behind the others has to be covered.
+/// The box is behind all of the planes, and all lines lead towards all of them. Where a line passes its first plane, it
+/// is still behind the others. So only the part of each plane that is behind the others must be covered.
 bool DiameterClearance::blocks(const std::vector<std::uint32_t>& planes, double side, const Aabb& box,
                                const Lines& lines) {
   const Vec3 d = side * lines.at(lines.middle());
@@ -181,7 +181,7 @@ bool DiameterClearance::no_diameter_fits(const Aabb& box, const Vec3& normal,
 
 bool DiameterClearance::all_blocked(const Aabb& box, const Lines& lines, const std::vector<std::uint32_t>& around,
                                     double share) {
-  // Gives up when the share that was proved so far lets more than 2000 subproblems be expected; not before the 64th.
+  // Gives up after 64 subproblems when the proved share predicts more than 2000 of them.
   if (++steps_ > 64 && steps_ > 2000 * shown_) return false;
   const Vec3 center = box.center(), d = lines.at(lines.middle()), across = lines.normal.cross(d);
   const double spread = radius_ * std::sin(0.5 * (lines.to - lines.from));

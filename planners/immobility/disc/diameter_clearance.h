@@ -15,27 +15,27 @@ inline Eigen::Vector3d corner(const Aabb& box, int k) {
   return {(k & 1 ? box.hi : box.lo).x(), (k & 2 ? box.hi : box.lo).y(), (k & 4 ? box.hi : box.lo).z()};
 }
 
-/// A disc with that radius, thickened by `half`, must not meet the facets. In their frame.
+/// A disc of the given radius, thickened by `half`, must not meet the facets. In the frame of the facets.
 class DiameterClearance {
  public:
-  /// `slack`: as for the facets; the disc is taken to be smaller by that.
+  /// `slack`: as for the facets; reduces the disc.
   DiameterClearance(const Facets& facets, double radius, double half, double slack);
 
-  /// Of the given facets, those within `reach` of the box.
+  /// The facets of `of` within `reach` of the box.
   std::vector<std::uint32_t> around(const Aabb& box, double reach, const std::vector<std::uint32_t>& of) const;
 
-  /// Is every point of the box nearer than `half` to a facet?
+  /// True if every point of the box is nearer than `half` to a facet.
   bool all_near(const Aabb& box, const std::vector<std::uint32_t>& around);
 
-  /// In the plane through a point across a normal: how far the longest of some sampled lines through the point is free
-  /// on both sides.
+  /// Samples lines through a point in the plane with a normal. Returns the largest length for which a line is free on
+  /// both sides.
   double free_half_length(const Eigen::Vector3d& from, const Eigen::Vector3d& normal,
                           const std::vector<std::uint32_t>& around);
 
-  /// Proved that no diameter fits whose centre is in the box and whose direction is across the normal?
+  /// True if proved that no diameter fits with its centre in the box and its direction perpendicular to the normal.
   bool no_diameter_fits(const Aabb& box, const Eigen::Vector3d& normal, const std::vector<std::uint32_t>& around);
 
-  std::size_t work() const { return work_; }  ///< facets that were tested
+  std::size_t work() const { return work_; }  ///< number of tested facets
 
  private:
   struct Lines;
@@ -52,8 +52,8 @@ class DiameterClearance {
 
   const Facets& facets_;
   double slack_, radius_, near_;
-  double free_ = 0;               ///< the angle at which a line was free last
-  double steps_ = 0, shown_ = 0;  ///< of no_diameter_fits(): subproblems so far, and the share of all that was proved
+  double free_ = 0;                      ///< angle of the last free line
+  double steps_ = 0, shown_ = 0;         ///< in no_diameter_fits(): subproblems so far, and share that is proved
   std::vector<Eigen::Vector2d> points_;  ///< buffer
 
   std::size_t work_ = 0;

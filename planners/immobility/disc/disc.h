@@ -15,7 +15,7 @@ struct DiscParams {
   static void describe(Schema<DiscParams>& s);
 };
 
-/// Of a pair, the smaller part has the disc and the larger one the chamber. The proof is in disc_cage.h.
+/// The smaller part of a pair has the disc, the larger part the chamber. The proof is in disc_cage.h.
 class Disc final : public ImmobilityProver {
  public:
   explicit Disc(const DiscParams& params = {}) : params_(params) {}

@@ -18,18 +18,18 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-// Cells are divided down to a quarter of the disc's half thickness: with smaller ones a proof takes too many.
+// Smallest edge of a cell, as a share of the disc's half thickness: with smaller cells a proof needs too many.
 constexpr double kSmallestEdge = 0.25;
 
 /// A box of positions of the disc's centre.
 struct Cell {
   Aabb box;
   std::vector<std::uint32_t> around, in_reach;  ///< facets near the box, and in reach of a disc whose centre is in it
-  double cost = 0;                              ///< > 0: the box's centre is excluded, and about by which length
+  double cost = 0;                              ///< > 0: the box's centre is excluded, by about this length
   bool empty = false, tested = false;
   int across = -1;                 ///< the normal of the plane in which no diameter fits at the box's centre
-  double below = 0, above = 0;     ///< how far along that normal none fits
-  Vec3 open_share = Vec3::Zero();  ///< by axis: the number of corners with room on one side, less that on the other
+  double below = 0, above = 0;     ///< distances along that normal up to which none fits
+  Vec3 open_share = Vec3::Zero();  ///< by axis: corners with room on one side minus those on the other
 
   bool touches(const Cell& other) const { return box.overlaps(other.box); }
 };
@@ -88,7 +88,7 @@ class Chamber {
   }
 
  private:
-  /// Nothing: the start is in no cell, which only rounding can cause.
+  /// Returns nullopt if the start is in no cell, which only rounding can cause.
   std::optional<DiscCage> cage(const Graph& graph) const {
     DiscCage found{disc_, facets_.frame(), {}, {}};
     bool has_start = false;
@@ -138,7 +138,7 @@ class Chamber {
     return false;
   }
 
-  /// Does a diameter fit at the cell's centre, in every plane? If not, does it anywhere in the cell?
+  /// Tests whether a diameter fits at the cell's centre in every plane. If not, tests the whole cell.
   void test_planes(Cell& cell) {
     const Vec3 center = cell.box.center();
     for (std::size_t n = 0; n < normals_.size() && !cell.empty; ++n) {
@@ -162,7 +162,8 @@ class Chamber {
     }
   }
 
-  /// How far from a point in a direction no diameter fits into the planes across that direction; at most `reach`.
+  /// Distance from a point along `way` up to which no diameter fits into the planes perpendicular to it; at most
+  /// `reach`.
   double blocked_up_to(const Vec3& from, const Vec3& way, double reach, const Cell& cell) {
     const auto blocked = [&](double far) {
       return clearance_.free_half_length(from + far * way, way, cell.in_reach) < disc_.radius;
@@ -173,8 +174,8 @@ class Chamber {
     return yes;
   }
 
-  /// By axis, the number of corners on one side where a diameter fits in the plane across the normal, less that on the
-  /// other. Zero: it fits at none.
+  /// By axis: the number of corners on one side where a diameter fits in the plane across the normal, minus the number
+  /// on the other side. Zero if it fits at none.
   Vec3 open_share(const Cell& cell, const Vec3& normal) {
     Vec3 share = Vec3::Zero();
     bool any = false;
@@ -188,7 +189,7 @@ class Chamber {
     return any ? Vec3(share.cwiseAbs().cwiseMax(1e-3)) : share;
   }
 
-  /// Is the cell thin already along the axis on one side of which diameters fit and on the other not?
+  /// True if the cell is already thin along an axis on which diameters fit on one side only.
   bool on_the_edge(const Cell& cell) const {
     int k = 0;
     return cell.across >= 0 && cell.open_share.maxCoeff(&k) >= 1 && cell.box.size()[k] < disc_.half;
@@ -259,7 +260,7 @@ class Chamber {
     return best;
   }
 
-  /// Is a division there not too close to the border of the box?
+  /// True if a division there is not too close to the border of the box.
   bool fits(const Aabb& box, int k, double at) const {
     const double least = 0.8 * kSmallestEdge * disc_.half;
     return at > box.lo[k] + least && at < box.hi[k] - least;

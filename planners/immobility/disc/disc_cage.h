@@ -32,20 +32,20 @@ struct DiscCage {
   InteriorDisc disc;
   Pose frame;                            ///< of the region: assembled = frame * local
   std::vector<Aabb> region;              ///< cells that the disc's centre does not leave
-  std::vector<Eigen::Vector3d> normals;  ///< of the planes that were looked at; assembled frame
+  std::vector<Eigen::Vector3d> normals;  ///< of the tested planes; assembled frame
 };
 
-/// Is the disc in a chamber of the solids that it cannot leave? Nothing: told to stop, or not found with the effort of
-/// `params`, up to ten seconds. `depth` of discs_in() has to include the initial overlap of the parts: where the disc's
-/// centre is nearer than `half` to a solid when assembled, nothing is found. `slack` (> 0, much less than `half`): a
-/// length that the proof gives away for rounding.
+/// Proves that the disc is in a chamber of the solids that it cannot leave. Returns nullopt when told to stop, or if
+/// not proved with the effort of `params`, up to ten seconds. `depth` of discs_in() must include the initial overlap of
+/// the parts: there is no proof if the disc's centre is nearer than `half` to a solid when assembled. `slack` (> 0,
+/// much less than `half`): length reserved for rounding.
 ///
-/// Why it cannot. A surface of the solids that came nearer than `half` to the disc would be deeper in the disc's part
-/// than is allowed, and it begins outside. So no solid is ever nearer than `half` to the centre. And whatever the
-/// orientation of the disc, it has a diameter in any given plane through its centre. If no line of that plane through
-/// the centre has room for a diameter, the centre cannot be there. Cells of positions that are excluded by one of these
-/// two conditions are removed, until the remaining cells around the assembled position are cut off from the border. A
-/// cell is excluded only if all of its points are (see DiameterClearance).
+/// Why it cannot leave: a surface of the solids that came nearer than `half` to the disc would be deeper in the disc's
+/// part than is allowed, and it begins outside. So no solid is ever nearer than `half` to the centre. Whatever its
+/// orientation, the disc has a diameter in any given plane through its centre. So the centre cannot be where no line of
+/// that plane through it has room for a diameter. Cells of positions that one of these two conditions excludes are
+/// removed, until the remaining cells around the assembled position are cut off from the border. A cell is excluded
+/// only if all of its points are (see DiameterClearance).
 std::optional<DiscCage> disc_cage(const InteriorDisc& disc, const std::vector<Solid>& around, double slack,
                                   const DiscParams& params, const RunContext& context);
 

@@ -15,7 +15,7 @@ using Vec3 = Eigen::Vector3d;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 using Loop = std::vector<std::uint32_t>;  // numbers of corners, counter-clockwise
 
-/// A turn to the right that rounding may explain counts as straight on.
+/// A right turn within rounding counts as straight.
 bool turns_left(const Vec2& a, const Vec2& b, const Vec2& c) {
   const Vec2 u = b - a, v = c - b;
   const double turn = cross(u, v), slack = 0.1 * kRounding * u.norm() * v.norm();
@@ -42,7 +42,7 @@ Loop joined(const Loop& a, const Loop& b, std::uint32_t u, std::uint32_t v, cons
 
 }  // namespace
 
-/// The triangles of a solid while they are merged.
+/// The triangles of a solid during merging.
 struct Facets::Shell {
   const std::vector<Triangle>& triangles;
   std::vector<Vec3> at;

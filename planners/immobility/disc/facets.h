@@ -19,7 +19,7 @@ namespace dismantle::immobility {
 struct Facet {
   std::uint32_t plane = 0;
   Outline outline;  ///< in that plane
-  Aabb box, flat;   ///< in space, and of the outline
+  Aabb box, flat;   ///< box in space, and box of the outline
 
   bool within(const Eigen::Vector2d& p, double near) const {
     return p.x() >= flat.lo.x() - near && p.x() <= flat.hi.x() + near && p.y() >= flat.lo.y() - near &&
@@ -50,10 +50,11 @@ class Facets {
   const FacetPlane& plane_of(std::uint32_t facet) const { return planes_[facets_[facet].plane]; }
   const Pose& frame() const { return frame_; }  ///< assembled = frame * local
   const Aabb& box() const { return box_; }
-  /// Normals of faces that make up more than that share of the surface, the largest first.
+  /// Normals of faces with more than a `share` of the surface, the largest first.
   std::vector<Eigen::Vector3d> directions(std::size_t most, double share) const;
 
-  /// Is every point of the convex hull of `points`, which are in the plane, no further than `near` from its facets?
+  /// True if every point of the convex hull of `points`, which are in the plane, is within `near` of the plane's
+  /// facets.
   bool covers(std::uint32_t plane, const std::vector<Eigen::Vector2d>& points, double near) const;
 
   /// A plane, and whether its normal points away from the half space behind it (1) or into it (-1).
@@ -77,7 +78,7 @@ class Facets {
   Aabb box_;
   std::vector<Facet> facets_;
   std::vector<FacetPlane> planes_;
-  std::multimap<double, std::uint32_t> by_offset_;  ///< planes, for the search of equal ones
+  std::multimap<double, std::uint32_t> by_offset_;  ///< planes, to find equal ones
 };
 
 }  // namespace dismantle::immobility

@@ -134,7 +134,7 @@ std::vector<InteriorDisc> discs_in(const Solid& solid, const std::vector<MedialB
   std::vector<InteriorDisc> discs;
   for (const WallPlane& plane : planes_of(solid, balls, depth)) {
     const InteriorDisc disc = disc_on(plane, solid, depth);
-    if (disc.radius > 2 * disc.half) discs.push_back(disc);  // a thicker one is better served by a ball
+    if (disc.radius > 2 * disc.half) discs.push_back(disc);  // for a thicker part, enclosed_ball is more suitable
   }
   std::stable_sort(discs.begin(), discs.end(),
                    [](const InteriorDisc& a, const InteriorDisc& b) { return a.radius > b.radius; });

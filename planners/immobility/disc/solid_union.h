@@ -9,14 +9,14 @@
 
 namespace dismantle::immobility {
 
-/// Queries are in a frame of its own: assembled = frame * local. The solids must outlive it.
+/// Queries are in a local frame: assembled = frame * local. The solids must outlive it.
 class SolidUnion {
  public:
   SolidUnion(const std::vector<Solid>& solids, const Pose& frame);
 
-  /// A lower bound of the distance to the solids; negative inside: the ball of that radius is inside a solid.
+  /// A lower bound of the distance to the solids. Negative inside: the ball of that radius is then inside a solid.
   double clearance(const Eigen::Vector3d& p) const;
-  /// Is all of the box in one solid? Only true if that solid's surface does not even meet the box's bounding box in the
+  /// True if the box is in one solid. Conservative: the solid's surface must not meet the box's bounding box in the
   /// solid's frame.
   bool contains(const Aabb& box) const;
 

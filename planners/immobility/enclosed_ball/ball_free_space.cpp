@@ -28,7 +28,7 @@ constexpr double kFinestCell = 1.0 / 16;
 struct Cube {
   Vec3 center;
   double half = 0;
-  double bound = 0;  ///< no point of it is deeper
+  double bound = 0;  ///< upper bound of the depth of its points
   bool operator<(const Cube& other) const { return bound < other.bound; }
 };
 
@@ -37,7 +37,7 @@ struct Cell {
   auto operator<=>(const Cell&) const = default;
   Vec3 center(const Vec3& origin, double edge) const { return origin + edge * Vec3(x, y, z); }
 };
-/// A bit for each cell over the box of the walls, and for a margin of cells that are outside.
+/// One bit per cell of the box of the walls and of a margin outside it.
 class VisitedCells {
  public:
   VisitedCells(const Aabb& box, const Vec3& origin, double edge) {
@@ -48,7 +48,7 @@ class VisitedCells {
     }
     if (size_[0] * size_[1] * size_[2] <= kMost) bits_.resize(static_cast<std::size_t>(size_[0] * size_[1] * size_[2]));
   }
-  /// False: there would be too many cells.
+  /// False if there would be too many cells.
   bool usable() const { return !bits_.empty(); }
   /// False when the cell was visited before or is far outside.
   bool insert(const Cell& c) {
@@ -67,7 +67,7 @@ class VisitedCells {
   std::vector<bool> bits_;
 };
 
-/// The walls with what speeds up distance queries.
+/// The walls, with data that speed up distance queries.
 struct PlacedWalls {
   struct Placed {
     const Wall* wall;
@@ -88,7 +88,7 @@ struct PlacedWalls {
     }
   }
 
-  /// The index of a wall to which no point within `reach` of `p` keeps the distance; placed.size() if there is none.
+  /// Index of a wall that is too near for all points within `reach` of `p`; placed.size() if there is none.
   std::size_t wall_too_near(const Vec3& p, double reach) const {
     for (std::size_t i = 0; i < placed.size(); ++i) {
       const double limit = placed[i].wall->distance - reach;
@@ -99,12 +99,12 @@ struct PlacedWalls {
     return placed.size();
   }
 
-  /// How far inside the box of all walls; negative outside.
+  /// Depth in the box of all walls; negative outside.
   double inside(const Vec3& p) const { return std::min((p - all.lo).minCoeff(), (all.hi - p).minCoeff()); }
 };
 
-/// Can the centre leave along a straight line, in one of 26 directions? Most parts that are not enclosed can, and then
-/// no flood is needed.
+/// True if the centre can leave along a straight line in one of 26 directions. Most parts that are not enclosed can, so
+/// no flood fill is needed for them.
 bool leaves_straight(const Vec3& start, const PlacedWalls& bounds, double step) {
   for (int k = 0; k < 27; ++k) {
     const Vec3 direction(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);

@@ -19,10 +19,10 @@ struct Ball {
 };
 
 /// A large ball within a solid, by branch and bound over cubes: the depth of a point changes no faster than the point
-/// moves. Its radius is at least 0.95 times the largest, unless `most_cubes` divisions are not enough.
+/// moves. Its radius is at least 0.95 times the largest if `most_cubes` divisions suffice.
 Ball inscribed_ball(const Solid& solid, std::uint64_t most_cubes = 2000);
 
-/// An obstacle at `pose` (of the solid's frame), to which the ball's centre has to keep `distance` (> 0).
+/// An obstacle at `pose` (of the solid's frame), from which the ball's centre must keep `distance` (> 0).
 struct Wall {
   const Solid* solid;
   Pose pose;
@@ -36,13 +36,13 @@ struct FreeSpace {
   std::vector<std::size_t> bounds;  ///< closed: walls that bound them, the one that bounds most cells first
 };
 
-/// Can the centre get from `start` to the outside? Fills cells, including every cell that contains a free position. If
-/// that leads outside, cells of half the edge are tried, a few times. Not closed when told to stop, or when there are
-/// more than `most_cells`.
+/// Tests whether the centre can get from `start` to the outside. Fills cells, including every cell that contains a free
+/// position. If they lead outside, repeats with half the edge, a few times. Not closed when told to stop, or with more
+/// than `most_cells` cells.
 ///
-/// `closed` proves that it cannot. All positions that the centre can reach then lie in a bounded component of the free
-/// space. Such a component lies in the convex hull of the walls: from a point outside the hull the centre could move
-/// straight away from the hull, and would come nearer to none of the walls.
+/// `closed` proves that it cannot. All positions that the centre can reach are then in a bounded component of the free
+/// space. Such a component is in the convex hull of the walls: from a point outside the hull the centre could move
+/// straight away from it without coming nearer to any wall.
 FreeSpace flood_free_space(const Eigen::Vector3d& start, const std::vector<Wall>& walls, std::size_t most_cells,
                            const RunContext& context);
 /// As flood_free_space(), with cells of one edge only; assembly units, > 0.

@@ -60,17 +60,16 @@ std::vector<PartId> distinct(const std::vector<PartId>& parts) {
 }  // namespace
 
 void EnclosedBallParams::describe(Schema<EnclosedBallParams>& s) {
-  s.add(
-      "max_cubes", &EnclosedBallParams::max_cubes,
-      {.unit = "1",
-       .min = 1,
-       .doc = "Cubes that are divided in search of the largest ball within a part. With fewer, the ball may be smaller "
-              "than 0.95 times the largest."});
+  s.add("max_cubes", &EnclosedBallParams::max_cubes,
+        {.unit = "1",
+         .min = 1,
+         .doc = "Limit of divided cubes in the search for the largest ball within a part. With fewer, the ball may be "
+                "smaller than 0.95 times the largest."});
   s.add("max_cells", &EnclosedBallParams::max_cells,
         {.unit = "1",
          .min = 1,
-         .doc = "Cubic cells that the ball's centre may reach before the proof is given up. A million take about two "
-                "seconds."});
+         .doc = "Limit of cubic cells that the ball's centre reaches, after which the proof is given up. A million "
+                "take about two seconds."});
 }
 
 ProverTraits EnclosedBall::traits() const noexcept {

@@ -1,4 +1,4 @@
-/// A part that holds a ball which is too large for every way out between the parts around it.
+/// A part that contains a ball too large for every gap between the surrounding parts.
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,8 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-// Halvings of the faces of a cube of directions: cells of about 1.4 degrees, much less than bends that are tried.
+// Halvings of the faces of a cube of directions. Gives cells of about 1.4 degrees, much less than the bends that are
+// tried.
 constexpr int kFinest = 6;
 
 /// A cell of directions: all unit vectors within `radius` (as a distance) of `center`.
@@ -49,7 +50,7 @@ class LegDirections {
         bend_(bend),
         to_local_(around.frame.inverse()),
         max_distances_(max_distances) {
-    std::vector<Positions> begin;  // by level of the direction cells: both are refined together
+    std::vector<Positions> begin;  // by level of the direction cells, since both are refined together
     for (int level = 0; level <= kFinest; ++level) begin.push_back(positions(bend.keep[0] / (2 << (level / 3 + 1))));
     std::array<Face, 6> faces;
     parallel_for(
@@ -64,8 +65,8 @@ class LegDirections {
   }
   /// A cover of all of them, unless the search gave up.
   const std::vector<DirectionCell>& directions() const { return found_; }
-  /// The limits are on what all faces take together, so the result does not depend on the order of threads. When a
-  /// third of all directions is left, two of them differ by as much as the legs do.
+  /// The limits are for all faces together, so the result does not depend on the order of threads. If a third of all
+  /// directions is left, two of them differ by as much as the legs do.
   bool gave_up() const {
     return stopped_ || 3 * cells_ > std::size_t{6} << (2 * kFinest) || distances_ > max_distances_;
   }

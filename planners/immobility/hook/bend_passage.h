@@ -1,4 +1,4 @@
-/// Can a bend of a bar pass through a hole?
+/// Test whether a bend of a bar can pass through a hole.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace dismantle::immobility {
 
-/// True: proved that the corner of `bend` can never be on the flat disc within `loop`, a curve on the surface of
-/// `around`, by covering all positions on the disc and all directions of the two legs with cells. False: not proved
-/// with at most `max_distances` distance queries, or told to stop. Assembled frame.
+/// True if proved that the corner of `bend` can never be on the flat disc within `loop`, a curve on the surface of
+/// `around`. Covers all positions on the disc and all directions of the two legs with cells. False if not proved with
+/// `max_distances` distance queries, or told to stop. Assembled frame.
 bool cannot_pass(const Loop& loop, const Solid& around, const Bend& bend, std::uint64_t max_distances,
                  const RunContext& context);
 

@@ -21,26 +21,26 @@ void HookParams::describe(Schema<HookParams>& s) {
   s.add("max_holes", &HookParams::max_holes,
         {.unit = "1",
          .min = 1,
-         .doc = "Holes around the middle of a bar that are tried, in the order in which the "
-                "thickest pieces of the bar go through them."});
+         .doc = "Holes around a bar that are tried, those around the thickest pieces of the bar first."});
   s.add("max_bends", &HookParams::max_bends,
-        {.unit = "1", .min = 1, .doc = "Bends on each side of a hole that are tried, the sharpest first."});
-  s.add(
-      "max_nodes", &HookParams::max_nodes,
-      {.unit = "1",
-       .min = 8,
-       .doc = "Advanced. Points on the middle of a bar, the deepest first. Time grows with the square of their number; "
-              "too few leave gaps in long wires."});
+        {.unit = "1", .min = 1, .doc = "Bends that are tried on each side of a hole, the sharpest first."});
+  s.add("max_nodes", &HookParams::max_nodes,
+        {.unit = "1",
+         .min = 8,
+         .doc = "Advanced. Points on the middle line of a bar, the deepest first. Time grows with the square of their "
+                "number. Too few leave gaps in long wires."});
   s.add(
       "max_distances", &HookParams::max_distances,
       {.unit = "1",
        .min = 1,
        .doc = "Advanced. Distance queries for the proof that one bend cannot pass one hole: 6e6 take a few seconds."});
-  s.add("min_bend", &HookParams::min_bend,
-        {.unit = "rad",
-         .min = 0,
-         .max = 1.57,
-         .doc = "Advanced. Bends by a smaller angle are not tried, as they pass almost any hole that the bar passes."});
+  s.add(
+      "min_bend", &HookParams::min_bend,
+      {.unit = "rad",
+       .min = 0,
+       .max = 1.57,
+       .doc =
+           "Advanced. Bends with a smaller angle are not tried, since they pass almost any hole that the bar passes."});
 }
 
 std::optional<Certificate> Hook::prove(const SeparationQuery& query, const RunContext& context) const {

@@ -25,7 +25,8 @@ using std::numbers::pi;
 // A segment between points with distances r and s from the surface is within the solid if it is shorter than r + s.
 // This share of it leaves a margin.
 constexpr double kWithin = 0.95;
-// Steps along a leg, each of half the distance that the corner keeps: a leg of less than 8 is too short to be stopped.
+// Steps along a leg, each of half the distance that the corner keeps. A leg of less than 8 steps is too short to stop a
+// bend.
 constexpr std::size_t kLeastSteps = 8;
 constexpr int kMostSteps = 14;
 
@@ -41,7 +42,7 @@ std::vector<Node> nodes_of(const std::vector<MedialBall>& balls, double depth, s
   for (const MedialBall& ball : balls) {
     const Node n{ball.center, ball.radius - depth};
     if (nodes.size() == most || !(n.keep > 0.1 * depth)) break;
-    // Leaves out close neighbours, and balls in edges and corners beside much larger ones.
+    // Skips close neighbours, and balls in edges and corners beside much larger balls.
     if (std::any_of(nodes.begin(), nodes.end(), [&](const Node& m) {
           const double apart = (m.at - n.at).norm();
           return apart < 0.3 * m.keep || (m.keep > 1.5 * n.keep && apart < 2 * m.keep);
@@ -77,7 +78,7 @@ Vec3 bar_direction(const std::vector<Node>& nodes, std::size_t node) {
   return axes.eigenvectors().col(2);
 }
 
-/// One curve on the surface for each hole, close around the bar in the middle of the hole, with the node there.
+/// For each hole: one curve on the surface, close around the bar in the middle of the hole, and the node there.
 std::vector<std::pair<Loop, std::size_t>> holes(const Surface& surface, const Solid& around,
                                                 const std::vector<Node>& nodes, std::size_t most) {
   struct Tight {
@@ -119,8 +120,8 @@ std::vector<std::pair<Loop, std::size_t>> holes(const Surface& surface, const So
   return found;
 }
 
-/// The distances that the surface of another part keeps from the points along a line through the bar, up to the first
-/// point where it is too small.
+/// Distances that the surface of another part keeps from points along a line in the bar, up to the first point where
+/// the distance is too small.
 std::vector<double> keep_along(const Solid& bar, const Vec3& from, const Vec3& direction, double step, double depth) {
   std::vector<double> keep;
   for (int k = 0; k < kMostSteps; ++k) {
@@ -159,8 +160,7 @@ Line improved(const Solid& bar, const Vec3& corner, Line best, double by, double
   return best;
 }
 
-/// Two lines through the bar from one point. The worth prefers long, thick and sharp bends, which pass the fewest
-/// holes.
+/// Two lines in the bar from one point. The worth prefers long, thick and sharp bends, which pass the fewest holes.
 struct Corner {
   Node node;
   Vec3 at;
@@ -185,7 +185,7 @@ std::optional<Corner> coarse_corner(const Solid& bar, const Node& node, double d
   std::erase_if(lines, [&](const Line& l) { return !is_bend(first.along, l.along, min_bend); });
   if (lines.empty()) return std::nullopt;
   Corner corner{node, node.at, first, *std::max_element(lines.begin(), lines.end(), better)};
-  // These lines are not quite along the bar, so they may still be half as long as is needed.
+  // These lines are only roughly along the bar, so half of the required length is enough here.
   return corner.length() >= kLeastSteps / 2 ? std::optional(corner) : std::nullopt;
 }
 
@@ -214,7 +214,7 @@ std::optional<Bend> refined(const Solid& bar, Corner corner, double depth, doubl
   return bend;
 }
 
-/// Does the segment go through the disc?
+/// True if the segment crosses the disc.
 bool crosses(const Loop& loop, const Vec3& a, const Vec3& b) {
   const double ha = loop.plane.height(a), hb = loop.plane.height(b);
   return (ha > 0) != (hb > 0) && loop.around(a + ha / (ha - hb) * (b - a));
@@ -247,18 +247,18 @@ std::vector<Reached> on_side(const Loop& loop, const std::vector<Node>& nodes, c
   return list;
 }
 
-/// A bend, and the line to it from the node on the disc, which is left out.
+/// A bend, and the line to it from the node on the disc, without that node.
 struct BendWithPath {
   Bend bend;
   std::vector<Vec3> path;
 };
 
-/// On one side of the disc that a node is on: a bend that cannot pass it.
+/// A bend on one side of the disc at `node` that cannot pass the disc.
 std::optional<BendWithPath> bend_on_side(const Solid& bar, const Solid& around, double depth,
                                          const std::vector<Node>& nodes, const Links& links, const Loop& loop,
                                          std::size_t node, bool above, const HookParams& params,
                                          const RunContext& context) {
-  std::vector<std::pair<Corner, std::uint32_t>> corners;  // with the place in the list below
+  std::vector<std::pair<Corner, std::uint32_t>> corners;  // with the index in the list below
   const std::vector<Reached> near = on_side(loop, nodes, links, node, above);
   constexpr std::uint32_t kMostNodes = 40;  // a bend further away lets the bar slide to it
   for (std::uint32_t k = 0; k < near.size() && k < kMostNodes; ++k)

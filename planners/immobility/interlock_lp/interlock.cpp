@@ -26,8 +26,8 @@ struct Bounds {
   bool strictly_within(const Bounds& other) const {
     return (lo.array() > other.lo.array() + kRounding).all() && (hi.array() < other.hi.array() - kRounding).all();
   }
-  /// A little beyond the others, so that the next round can end strictly within; at most to twice, since bounds that
-  /// are too wide have remainders that are too large for the proof.
+  /// Widens to slightly more than `other`, so that the next round can end strictly within. At most doubles the bounds,
+  /// since wider bounds have remainders that are too large for the proof.
   void widen_to(const Bounds& other) {
     lo = lo.cwiseMin((1.02 * other.lo).cwiseMax(2 * lo));
     hi = hi.cwiseMax((1.02 * other.hi).cwiseMin(2 * hi));
@@ -38,7 +38,7 @@ struct Bounds {
 struct Pair {
   std::size_t a, b;
   std::unique_ptr<SampledPair> samples;
-  std::size_t solids_of_a;  // before those of b among its obstacles
+  std::size_t solids_of_a;  // they come before those of b among the obstacles
   Vec3 center_b_to_a;
   Bounds bounds{6};
 };
@@ -58,7 +58,7 @@ using RowOfPair = std::pair<std::size_t, Eigen::Index>;
 /// Multipliers of rows, for each linear program.
 using RecordedMultipliers = std::vector<std::vector<std::pair<RowOfPair, double>>>;
 
-/// Linear programs over the rows of all pairs. Few rows are active, so they are added as they are violated (cutting
+/// Linear programs over the rows of all pairs. Few rows are active, so rows are added when they are violated (cutting
 /// planes).
 class Program {
  public:
@@ -68,13 +68,13 @@ class Program {
     used_.lo = -most;
   }
 
-  /// Upper bound of direction . x; infinity where there is none, or when told to stop. Adds what proves it to `record`.
+  /// Upper bound of direction . x; infinity if there is none, or when told to stop. Adds its multipliers to `record`.
   double bound(const VectorXd& direction, RecordedMultipliers& record) {
     auto& proof = record.emplace_back();
     Multipliers multipliers;
     double value = std::numeric_limits<double>::infinity();
     bool more = true;
-    for (int k = 0; k < 200 && more; ++k) {  // every round gives a valid bound; some dozen give the best one
+    for (int k = 0; k < 200 && more; ++k) {  // every round gives a valid bound; a few dozen give the best one
       if (context_.should_stop()) return std::numeric_limits<double>::infinity();
       const auto found = maximum(direction, used_, &context_, &multipliers);
       if (found.empty) break;
@@ -191,7 +191,7 @@ class Region {
       constraints.push_back(constraints_of(pair));
     }
     RecordedMultipliers record;
-    // Twice as far as bounds may grow in a round, so that the box of the linear programs itself is never the bound.
+    // Twice the growth limit of a round, so that the box of the linear programs never decides the bound.
     Program program(constraints, 4 * bounds_.most(), context);
     const auto interval = [&](const VectorXd& direction, double rest, double& lo, double& hi) {
       hi = program.bound(direction, record) + rest;

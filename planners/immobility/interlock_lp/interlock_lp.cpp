@@ -14,18 +14,18 @@ void InterlockLpParams::describe(Schema<InterlockLpParams>& s) {
         {.unit = "1",
          .min = 2,
          .max = 64,
-         .doc = "The largest group that is tried: time grows with the cube of the number of parts."});
+         .doc = "Size of the largest group that is tried. Time grows with the cube of the number of parts."});
   s.add("max_rounds", &InterlockLpParams::max_rounds,
         {.unit = "1",
          .min = 1,
-         .doc = "Times that the assumed bounds of the motions are widened before the proof is given up. Most proofs "
-                "take less than ten."});
+         .doc = "How often the assumed bounds of the motions are widened before the proof is given up. Most proofs "
+                "need less than ten rounds."});
   s.add("sample_spacing", &InterlockLpParams::sample_spacing,
         {.unit = "verify.max_penetration",
          .min = 0,
          .min_open = true,
-         .doc = "Advanced. Distance between the points inside the parts of which the proof is made. Fewer points are "
-                "faster, and miss contacts of small features."});
+         .doc = "Advanced. Distance between the interior points that the proof uses. Fewer points are faster, but miss "
+                "contacts of small features."});
 }
 
 std::optional<Certificate> InterlockLp::prove(const SeparationQuery& query, const RunContext& context) const {
@@ -35,7 +35,7 @@ std::optional<Certificate> InterlockLp::prove(const SeparationQuery& query, cons
   if (parts.size() > static_cast<std::size_t>(params_.max_parts)) return std::nullopt;
   std::sort(parts.begin(), parts.end());
   const std::vector<PartId> ascending = parts;
-  // Poses are relative to the first part. The largest one gives the smallest relative motions.
+  // Poses are relative to the first part. The largest part gives the smallest relative motions.
   std::stable_sort(parts.begin(), parts.end(),
                    [&](PartId a, PartId b) { return extent_of(query, a) > extent_of(query, b); });
   std::vector<const std::vector<Solid>*> solids;

@@ -15,7 +15,7 @@ struct InterlockLpParams {
   static void describe(Schema<InterlockLpParams>& s);
 };
 
-/// About all parts of the query, any of which may move. The proof is in interlock.h.
+/// Proves immobility of all parts of the query, any of which may move. The proof is in interlock.h.
 class InterlockLp final : public ImmobilityProver {
  public:
   explicit InterlockLp(const InterlockLpParams& params = {}) : params_(params) {}

@@ -1,4 +1,4 @@
-/// The pose of one body relative to another, as a linear form in the poses of both with a bound of the remainder.
+/// The pose of one body relative to another as a linear form in the poses of both, with a bound of the remainder.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@ Eigen::Vector3d abs_cross_bound(const Eigen::Vector3d& u, const Eigen::Vector3d&
 /// shift of that centre. All are 0 when assembled.
 struct CoordinateBound {
   Vector6 most = Vector6::Zero();
-  /// Where the expansion below is valid: |u| + |v| <= 1/2.
+  /// True where the expansion below is valid for two such bounds: |u| + |v| <= 1/2.
   bool small() const { return most.head<3>().norm() <= 0.25; }  // rad
 };
 
@@ -31,9 +31,9 @@ struct RelativeCoordinates {
 /// coordinates.
 ///
 /// With rotation vectors u, v of a and b, log(exp(-v) exp(u)) = u - v + (u x v) / 2 + rest, |rest| <= (|u| + |v|)^3 / 2
-/// while |u| + |v| <= 1/2: integrate d/dr log(exp(-r v) exp(r u)) from 0 to 1, with inverse(right Jacobian of w) =
-/// 1 + [w] / 2 + rest, |rest| <= |w|^2 / 10. The relative shift s satisfies exp(v) s = w, where w is the distance of
-/// a's centre from the place to which b has carried it.
+/// while |u| + |v| <= 1/2: integrate d/dr log(exp(-r v) exp(r u)) from 0 to 1, with inverse(right Jacobian of w) = 1 +
+/// [w] / 2 + rest, |rest| <= |w|^2 / 10. The relative shift s satisfies exp(v) s = w, where w leads from the place to
+/// which b has carried a's centre to that centre.
 RelativeCoordinates relative_coordinates(const CoordinateBound& a, const CoordinateBound& b,
                                          const Eigen::Vector3d& center_b_to_a, const Vector6& relative);
 

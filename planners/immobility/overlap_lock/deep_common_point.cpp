@@ -15,7 +15,7 @@ struct Cube {
   Eigen::Vector3d center;
   double half = 0;
   double in_a = 0, in_b = 0;  ///< depth of its centre
-  double bound = 0;           ///< no point of it is deeper
+  double bound = 0;           ///< upper bound of the depth of its points
   bool operator<(const Cube& other) const { return bound < other.bound; }
 };
 
@@ -25,15 +25,15 @@ Aabb world_box(const Solid& s, const Pose& pose) {
   return box;
 }
 
-/// A point of the frame of a solid, and how deep it is below its surface (< 0: outside).
+/// A point in the frame of a solid, and its depth below the surface (< 0: outside).
 struct DepthSample {
   Eigen::Vector3d at;
   double depth = 0;
 };
 
 /// Depth of `p`, if it is more than `least`. The distances from the box and from the surface are upper bounds of it,
-/// and mostly decide. The test on which side of the surface `p` is costs as much again. It is not needed where the
-/// balls about `p` and `near` that do not meet the surface overlap: then both are on one side.
+/// and mostly decide. The inside test of `p` costs as much again. It is not needed where the balls about `p` and `near`
+/// that do not meet the surface overlap, since then both points are on one side.
 std::optional<double> depth_above(double least, const Eigen::Vector3d& p, const Solid& solid,
                                   std::optional<DepthSample>& near) {
   if (!((p - solid.box.lo).cwiseMin(solid.box.hi - p).minCoeff() > least)) return std::nullopt;

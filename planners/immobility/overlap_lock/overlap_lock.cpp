@@ -7,12 +7,11 @@
 
 namespace dismantle::immobility {
 void OverlapLockParams::describe(Schema<OverlapLockParams>& s) {
-  s.add(
-      "max_cubes", &OverlapLockParams::max_cubes,
-      {.unit = "1",
-       .min = 1,
-       .doc = "Cubes of the common box of two solids that are divided in search of a point that locks them. Fewer miss "
-              "small overlaps of large parts."});
+  s.add("max_cubes", &OverlapLockParams::max_cubes,
+        {.unit = "1",
+         .min = 1,
+         .doc = "Limit of divided cubes of the common box of two solids, in the search for a point that locks them. "
+                "Fewer may miss small overlaps of large parts."});
 }
 
 std::optional<Certificate> OverlapLock::prove(const SeparationQuery& query, const RunContext& context) const {

@@ -1,4 +1,4 @@
-/// Parts that overlap when assembled so deep that no valid motion separates them.
+/// Parts with so deep an initial overlap that no valid motion separates them.
 #pragma once
 
 #include <cstdint>

@@ -11,20 +11,23 @@ void RingParams::describe(Schema<RingParams>& s) {
   s.add("max_rings", &RingParams::max_rings,
         {.unit = "1",
          .min = 1,
-         .doc = "Circles within each solid that are tried, the largest first. Larger ones pass fewer openings."});
-  s.add("heights", &RingParams::heights,
-        {.unit = "1",
-         .min = 1,
-         .doc = "Advanced. Positions along each axis of a part at which a circle is searched. Thin rims are missed by "
-                "few."});
+         .doc = "Circles that are tried within each solid, the largest first. Larger circles pass fewer openings."});
+  s.add(
+      "heights", &RingParams::heights,
+      {.unit = "1",
+       .min = 1,
+       .doc =
+           "Advanced. Positions along each axis of a part at which a circle is searched. Too few may miss thin rims."});
   s.add("radii", &RingParams::radii,
         {.unit = "1",
          .min = 1,
-         .doc = "Advanced. Radii that are tried at each position. With more, the circle comes closer to the largest."});
-  s.add("max_sections", &RingParams::max_sections,
-        {.unit = "1",
-         .min = 1,
-         .doc = "Advanced. Planes across the axis, about, in which the openings of a chamber are searched."});
+         .doc = "Advanced. Radii that are tried at each position. More radii find a circle closer to the largest."});
+  s.add(
+      "max_sections", &RingParams::max_sections,
+      {.unit = "1",
+       .min = 1,
+       .doc =
+           "Advanced. Approximate number of planes across the axis in which the openings of a chamber are searched."});
 }
 
 std::optional<Certificate> Ring::prove(const SeparationQuery& query, const RunContext& context) const {

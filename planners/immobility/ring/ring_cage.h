@@ -12,23 +12,23 @@ namespace dismantle::immobility {
 
 struct RingCage {
   InteriorCircle circle;
-  std::vector<double> planes;  ///< across the circle's axis: offsets of its openings
+  std::vector<double> planes;  ///< offsets along the circle's axis of the planes of the openings
   double opening = 0;          ///< diameter of the largest opening of the chamber; < 2 * circle.radius
 };
 
 /// Large circles in the solid, at least `depth` (> 0) below its surface; the largest first.
 std::vector<InteriorCircle> circles_in(const Solid& solid, double depth, const RingParams& params);
 
-/// Is the circle in a chamber of the solid that it cannot leave? Nothing: no such chamber was found, or told to stop.
-/// `slack`: openings are narrower than the circle by more than that; assembly units, > 0.
+/// Proves that the circle is in a chamber of the solid that it cannot leave. Returns nullopt if no such chamber was
+/// found, or told to stop. `slack`: openings are narrower than the circle by more than this; assembly units, > 0.
 ///
-/// Why it cannot. The surface of the solid never meets the circle: it would be deeper in the circle's part than is
-/// allowed. The chamber is closed by a piece of that surface and by flat discs whose borders are curves on the surface.
-/// So the circle can leave only through discs. It is not linked with the border of a disc at first, and hence never, so
-/// it crosses the disc in two points or none. The chord between the two points is shorter than the circle's diameter,
-/// so one of the arcs is shorter than half of the circle. That is the arc that was cut off when the circle first
-/// touched the disc, and it never grows to half of the circle. When the circle crosses no disc, no arc is cut off, and
-/// all of it is inside again. So a point of the circle is always in the chamber or on one of its discs.
+/// Why it cannot leave: the surface of the solid never meets the circle, since it would be deeper in the circle's part
+/// than is allowed. The chamber is closed by a piece of that surface and by flat discs whose borders are curves on the
+/// surface. So the circle can leave only through discs. It is not linked with the border of a disc at first, and hence
+/// never, so it crosses the disc in two points or none. The chord between the two points is shorter than the circle's
+/// diameter, so one of the arcs is shorter than half of the circle. This is the arc that was cut off when the circle
+/// first touched the disc, and it never grows to half of the circle. When the circle crosses no disc, no arc is cut
+/// off, and all of it is inside again. So a point of the circle is always in the chamber or on one of its discs.
 std::optional<RingCage> ring_cage(const InteriorCircle& circle, const Solid& around, double slack,
                                   const RingParams& params, const RunContext& context);
 

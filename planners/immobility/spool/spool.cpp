@@ -9,27 +9,26 @@ namespace dismantle::immobility {
 
 void SpoolParams::describe(Schema<SpoolParams>& s) {
   s.add("max_rings", &SpoolParams::max_rings,
-        {.unit = "1", .min = 1, .doc = "Circles about each axis of the spool that are tried, the narrowest first."});
-  s.add(
-      "heights", &SpoolParams::heights,
-      {.unit = "1",
-       .min = 1,
-       .doc = "Advanced. Positions along each axis of the spool at which a circle is searched. Thin plates are missed "
-              "by few."});
-  s.add(
-      "radii", &SpoolParams::radii,
-      {.unit = "1",
-       .min = 2,
-       .doc = "Advanced. Radii that are tried at each position. With more, the circle comes closer to the narrowest."});
+        {.unit = "1", .min = 1, .doc = "Circles that are tried about each axis of the spool, the narrowest first."});
+  s.add("heights", &SpoolParams::heights,
+        {.unit = "1",
+         .min = 1,
+         .doc = "Advanced. Positions along each axis of the spool at which a circle is searched. Too few may miss thin "
+                "plates."});
+  s.add("radii", &SpoolParams::radii,
+        {.unit = "1",
+         .min = 2,
+         .doc = "Advanced. Radii that are tried at each position. More radii find a circle closer to the narrowest."});
   s.add("max_sections", &SpoolParams::max_sections,
-        {.unit = "1", .min = 1, .doc = "Advanced. Planes across the axis, about, in which rims are searched."});
-  s.add(
-      "max_dent", &SpoolParams::max_dent,
-      {.unit = "verify.max_penetration",
-       .min = 0,
-       .min_open = true,
-       .doc =
-           "Advanced. How far a rim may differ from a convex curve. The circle has to be deeper by the same amount."});
+        {.unit = "1",
+         .min = 1,
+         .doc = "Advanced. Approximate number of planes across the axis in which rims are searched."});
+  s.add("max_dent", &SpoolParams::max_dent,
+        {.unit = "verify.max_penetration",
+         .min = 0,
+         .min_open = true,
+         .doc = "Advanced. Distance by which a rim may differ from a convex curve. The circle must be deeper by the "
+                "same amount."});
 }
 
 std::optional<Certificate> Spool::prove(const SeparationQuery& query, const RunContext& context) const {

@@ -20,8 +20,8 @@ double distance_to(const Vec2& p, const Vec2& a, const Vec2& b) {
   return (a + t * (b - a) - p).norm();
 }
 
-/// Does the curve keep to its hull, when it is followed in steps of that many points? Each edge of the hull then has a
-/// piece of the curve beside it. It is not enough that points are near any edge: a slit may reach from side to side.
+/// True if the curve, followed in steps of `step` points, stays near its hull: each edge of the hull has a piece of the
+/// curve beside it. It is not enough that points are near any edge, since a slit may reach from side to side.
 bool keeps_to(const std::vector<Vec2>& points, const std::vector<std::size_t>& hull, std::size_t step,
               double max_dent) {
   for (std::size_t k = 0; k < hull.size(); ++k) {
@@ -102,7 +102,7 @@ std::array<Rim, 2> rims(const std::vector<Loop>& loops, const InteriorCircle& ci
 
 std::optional<SpoolCage> spool_cage(const Solid& spool, const Solid& around, double allowed, double slack,
                                     double max_dent, const SpoolParams& params, const RunContext& context) {
-  const double depth = allowed + max_dent;  // so that the circle does not meet the convex curve beside a rim either
+  const double depth = allowed + max_dent;  // then the circle does not meet the convex curve beside a rim either
   const auto [center, axes] = symmetry_axes_of(spool);
   const Vec3 foot = spool.frame * center;
   std::optional<Surface> surface;

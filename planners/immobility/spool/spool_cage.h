@@ -10,8 +10,8 @@
 
 namespace dismantle::immobility {
 
-/// Distance of the point, in the plane of the curve, from the curve's convex hull, if that is more than `least` and the
-/// curve is nowhere further than `max_dent` from the piece of the hull beside it; else `least`.
+/// Distance of the point, in the plane of the curve, from the curve's convex hull. Returns `least` if the distance is
+/// less, or if the curve is somewhere further than `max_dent` from the piece of the hull beside it.
 double convex_reach(const Loop& loop, const Eigen::Vector3d& center, double least, double max_dent);
 
 struct SpoolCage {
@@ -20,11 +20,12 @@ struct SpoolCage {
   double rim = 0;               ///< diameter of the narrower of the two rims, through its middle; > 2 * circle.radius
 };
 
-/// Is the spool in a hole of the solid `around`, with a rim on either side that is wider than a circle about the hole,
-/// which lies at least `depth` (> 0) below the surface? Nothing: not found, or told to stop. `slack`: rims are wider by
-/// more than that. `max_dent`: rims differ from convex curves by no more than that. Both in assembly units, > 0.
+/// Proves that the spool is held in a hole of the solid `around`: on either side it has a rim that is wider than a
+/// circle about the hole, which lies at least `depth` (> 0) below the surface. Returns nullopt if not found, or told to
+/// stop. `slack`: rims are wider by more than this. `max_dent`: rims differ from convex curves by no more than this.
+/// Both in assembly units, > 0.
 ///
-/// Why it stays. The surface of the spool never meets the circle, so its rims and a line on it from rim to rim do not.
+/// Why it stays: the surface of the spool never meets the circle, so its rims and a line on it from rim to rim do not.
 /// A rim is convex, or so close to a convex curve that the circle does not meet that curve either. As with ring_cage(),
 /// the circle's disc crosses the rim in two points or none. The arc of the rim that the disc cuts off is always the
 /// shorter one, since the chord does not reach the middle of the rim. The parity of the crossings of the line with the

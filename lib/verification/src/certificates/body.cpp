@@ -55,7 +55,7 @@ double rounding_of(const SeparationQuery& query, PartId part) {
 }
 
 double rounding_of(const Aabb& box) {
-  // Some hundred thousand times the rounding of one operation.
+  // About 5e5 times the rounding of one operation.
   return 1e-10 * std::max(box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff());
 }
 
@@ -65,7 +65,7 @@ double allowed_depth(const SeparationQuery& query, PartId a, PartId b) {
 
 double distance(const Vec3& p, const Corners& triangle) {
   double least = std::numeric_limits<double>::infinity();
-  Vec3 weights;  // of the foot of the perpendicular: areas of the triangles that it makes with the edges
+  Vec3 weights;  // barycentric, of the foot of the perpendicular, before normalisation
   const Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 &a = triangle[k], edge = triangle[(k + 1) % 3] - a, from = p - a;
@@ -99,7 +99,7 @@ bool inside(const Vec3& p, const Body& body) {
   double turns = 0;
   for (std::size_t t = 0; t < body.triangles.size(); ++t)
     turns += solid_angle(p, body.corners(t)) / (4 * std::numbers::pi);
-  return turns > 0.5 && std::abs(turns - std::round(turns)) < 1e-3;  // near the surface the sum is no whole number
+  return turns > 0.5 && std::abs(turns - std::round(turns)) < 1e-3;  // near the surface the sum is not an integer
 }
 
 double depth(const Vec3& p, const Body& body) { return inside(p, body) ? distance(p, body) : 0; }

@@ -1,7 +1,7 @@
-/// Independent checkers of certificates, one for each kind: small, and without any code of the provers.
+/// Independent checkers of certificates, one for each kind. They are small and share no code with the provers.
 ///
-/// A checker accepts a certificate only if its numbers make up a proof. It does not search: what it does beyond
-/// multiplying and measuring is to divide what the certificate gives into smaller pieces.
+/// A checker accepts a certificate only if its numbers make up a proof. It does not search: it measures, multiplies,
+/// and divides the pieces that the certificate gives.
 #pragma once
 
 #include <cstddef>
@@ -13,18 +13,18 @@
 
 namespace dismantle::certificates {
 
-/// A list of numbers that certificates of a kind have.
+/// A list of numbers that certificates of a kind must have.
 struct NumberList {
   std::string_view name;
   std::size_t count = 1;  ///< 0: any number of them
 };
 
-/// What is wrong with a certificate; empty when it holds. The query has its first part moving and the others fixed,
-/// where the certificate has them. All lists of the kind are there, of the right length, and finite.
+/// Returns what is wrong with a certificate; empty when it holds. In the query its first part moves and the others are
+/// fixed, at the certificate's poses. The caller has checked names, lengths and finiteness of the lists.
 using Objection = std::string (*)(const Certificate& certificate, const SeparationQuery& query,
                                   const RunContext& context);
 
-/// How certificates of a kind are checked.
+/// The check of one kind of certificate.
 struct Checker {
   std::string_view kind;
   ProverTraits traits;
@@ -32,10 +32,10 @@ struct Checker {
   Objection objection = nullptr;
 };
 
-/// nullptr: certificates of this kind are checked by their prover alone.
+/// Returns nullptr for kinds that only their prover can check.
 const Checker* checker_of(std::string_view kind);
 
-/// Checks that its lists are those of the kind, then the proof.
+/// Checks that the lists are those of the kind, then the proof.
 std::string objection(const Checker& checker, const Certificate& certificate, const SeparationQuery& query,
                       const RunContext& context);
 

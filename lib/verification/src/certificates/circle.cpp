@@ -8,8 +8,8 @@
 namespace dismantle::certificates {
 namespace {
 
-/// Does the curve `at`, between two parameters, keep off the surface? No point of it moves faster than `speed` along
-/// it. `list`: the triangles that may be nearest to a point of it.
+/// True if the curve `at` does not meet the surface between two parameters. `speed`: bound of its derivative. `list`:
+/// the triangles that may be nearest to one of its points.
 template <class Curve>
 bool keeps_off(const Curve& at, double speed, const NearestTriangles& surface, const NearestTriangles::List& list,
                double from, double to, int divisions) {
@@ -27,7 +27,7 @@ bool curve_lies_deep(const Curve& at, double speed, double end, const Body& body
   if (!body.closed || !inside(at(0), body)) return false;
   NearestTriangles surface;
   surface.add(body, Pose{}, depth + rounding_of(body.box));
-  // 18 divisions: pieces of a few millionths of the curve. What is that near to the limit is refused.
+  // 18 divisions: pieces of a few millionths of the curve. A curve that near to the limit is refused.
   return keeps_off(at, speed, surface, surface.all(), 0, end, 18);
 }
 

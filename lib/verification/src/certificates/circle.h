@@ -9,19 +9,18 @@ struct Circle {
   Vec3 center, axis;  ///< axis: unit
   double radius = 0;
 
-  /// In the plane of the circle, from its centre.
+  /// Unit vector in the plane of the circle, from its centre.
   Vec3 direction(double angle) const;
   Vec3 point(double angle) const { return center + radius * direction(angle); }
 };
 
-/// From the numbers of a certificate; the radius is 0 where they make no circle.
+/// Reads the circle from the numbers of a certificate; radius 0 if they are not a valid circle.
 Circle circle_of(const Certificate& certificate, const char* diameter);
 
-/// Is all of the circle inside the body, and further than `depth` (>= 0) from its surface? One point of it is tested
-/// for inside: where all of it keeps off the surface, all of it is on one side. The distance is bounded by dividing
-/// arcs.
+/// True if the whole circle is inside the body, more than `depth` (>= 0) from its surface. Dividing arcs bounds the
+/// distance. One point is tested for inside, since a circle that nowhere meets the surface is on one side of it.
 bool lies_deep(const Circle& circle, const Body& body, double depth);
-/// The same of a straight line.
+/// The same for a segment.
 bool lies_deep(const Vec3& a, const Vec3& b, const Body& body, double depth);
 
 }  // namespace dismantle::certificates

@@ -1,16 +1,16 @@
 /// configuration_cells: a region of relative poses that no motion leaves.
 ///
-/// Six coordinates give the pose of one part as the other sees it: a rotation vector, about the centre of the part's
-/// box, and a shift of that centre, all 0 when assembled. The certificate has a box of poses, and a tree: the box is
-/// cut in two, and the pieces again; and pieces lose poses that no valid motion reaches (below). What is left of the
-/// pieces are the leaves. A valid motion within the box is always in one of them. They are closed, so it gets only from
-/// one leaf to another that touches it. Hence, if none of the leaves that are linked to the assembled pose touches the
-/// border of the box, no motion leaves the box. If it could take the parts apart, it could go on to anywhere.
+/// Six coordinates give the pose of one part relative to the other: a rotation vector about the centre of the part's
+/// box, and a shift of that centre, all 0 when assembled. The certificate has a box of poses, and a tree that divides
+/// the box again and again. Pieces also lose poses that no valid motion reaches (below). The remaining pieces are the
+/// leaves. A valid motion within the box is always in a leaf. Leaves are closed, so the motion passes only between
+/// leaves that touch. Hence, if no leaf that is linked to the assembled pose touches the border of the box, no motion
+/// leaves the box. A motion that could take the parts apart could continue to anywhere.
 ///
-/// Why poses are never reached: a point of one part, deeper in it than the pair may penetrate, never gets into the
-/// other part. Over a piece, its place is linear in the coordinates but for a rest that is bounded, so it is in a box.
-/// What is free of that box lies beyond a plane (FreeBound): a linear inequality of the coordinates. A sum of these,
-/// none multiplied by less than 0, bounds a coordinate, or has no solution within the piece.
+/// Why poses are never reached: a point of one part that is deeper in it than the pair may penetrate never enters the
+/// other part. Over a piece, its position is linear in the coordinates up to a bounded remainder, so it is in a box.
+/// The free part of that box lies beyond a plane (FreeBound), which gives a linear inequality for the coordinates. A
+/// sum of these with multipliers >= 0 bounds a coordinate, or has no solution within the piece.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,14 +31,14 @@ namespace {
 
 using Mat3 = Eigen::Matrix3d;
 
-/// Of a rotation vector w, as sums of powers of [w x]: exp(w), and J(w), where d exp(w) p = (J(w) dw) x exp(w) p.
+/// For a rotation vector w, as power series in [w x]: exp(w), and J(w) with d exp(w) p = (J(w) dw) x exp(w) p.
 struct Turn {
   Mat3 exp = Mat3::Identity(), left = Mat3::Identity();
 
   explicit Turn(const Vec3& w) {
     Mat3 k, power = Mat3::Identity();
     k << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
-    for (int n = 1; n < 60; ++n) {  // |w|^60 / 60! is nothing for |w| < 6
+    for (int n = 1; n < 60; ++n) {  // |w|^60 / 60! is negligible for |w| < 6
       power = power * k / n;
       exp += power;
       left += power / (n + 1);
@@ -46,14 +46,14 @@ struct Turn {
   }
 };
 
-/// A point of one part and the body of the other that it never gets into.
+/// A point of one part, and the body of the other part that it never enters.
 struct OutsidePoint {
   bool of_first = true;
   Vec3 at;  ///< assembled
   const FreeBound* obstacle = nullptr;
 };
 
-/// normal . (x - middle of the piece) <= most; `most` is minus infinity where the point has no free place.
+/// normal . (x - middle of the piece) <= most. `most` is minus infinity if the point has no free position.
 struct PoseRow {
   Vec6 normal = Vec6::Zero();
   double most = 0;
@@ -120,9 +120,9 @@ class Decomposition {
     return {};
   }
 
-  /// The next number of the tree; not a number at its end.
+  /// The next number of the tree; NaN at its end.
   double next() { return at_ < tree_.size() ? tree_[at_++] : std::numeric_limits<double>::quiet_NaN(); }
-  /// The next number, which is to be one of 0, 1, ... `count` - 1. False: it is not.
+  /// Reads the next number as an index below `count`. False: it is not one.
   bool next_index(std::size_t count, std::size_t& index) {
     const double x = next();
     if (!(x >= 0 && x < static_cast<double>(count)) || x != std::floor(x)) return false;
@@ -130,10 +130,10 @@ class Decomposition {
     return true;
   }
 
-  /// Through the tree. nullptr: it holds, and boxes_ are its leaves.
+  /// Goes through the tree. Returns nullptr if it holds; boxes_ are then its leaves.
   const char* walk(const PoseBox& all) {
     std::vector<PoseBox> pending{all};
-    bool empty = false;  // the piece
+    bool empty = false;  // the piece has no free pose
     begin_round(all);
     while (!pending.empty()) {
       if (context_.should_stop()) return "the check was stopped";
@@ -169,7 +169,7 @@ class Decomposition {
     rows_.clear();
   }
 
-  /// Moves a face of the piece, or finds that it has no pose.
+  /// Moves a face of the piece, or marks the piece as empty.
   const char* move(PoseBox& piece, bool& empty) {
     std::size_t face = 0, count = 0;
     if (!next_index(13, face)) return "it moves no face";
@@ -192,7 +192,7 @@ class Decomposition {
       left -= y * row.normal;
       sum += y * row.most;
     }
-    // The coordinates less those of the middle.
+    // Coordinates relative to the middle.
     const Vec6 lo = piece.lo - middle_, hi = piece.hi - middle_;
     sum += left.cwiseProduct(lo).cwiseMax(left.cwiseProduct(hi)).sum();
     if (face == 12) {
@@ -213,8 +213,9 @@ class Decomposition {
     return known->second;
   }
 
-  /// Places are exp(w) p + s, and exp(-w) (p - s) as the first part sees points of the second, from the centre. The
-  /// second derivative of exp(w) p by w is |p| at most, since rotations do not make vectors longer.
+  /// Relative to the centre, points of the first part are at exp(w) p + s. In the frame of the first part, those of the
+  /// second are at exp(-w) (p - s). The second derivative of exp(w) p by w is at most |p|, since rotations keep
+  /// lengths.
   PoseRow row(const OutsidePoint& point, const Vec3& direction) const {
     const Vec3 shift = middle_.tail<3>(), from = point.at - center_;
     const double turns = half_.head<3>().norm(), shifts = half_.tail<3>().norm();
@@ -269,7 +270,7 @@ class Decomposition {
   std::vector<Vec3> directions_;
   std::vector<PoseBox> boxes_;
   std::size_t leaves_ = 0;
-  // Of the round.
+  // For the current round.
   Vec6 middle_, half_;
   std::optional<Turn> turn_, back_;
   std::map<std::pair<std::size_t, std::size_t>, PoseRow> rows_;

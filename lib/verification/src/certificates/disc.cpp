@@ -1,15 +1,15 @@
 /// disc: the centre of a flat disc inside the first part does not leave a region between walls of the second.
 ///
-/// All points nearer to the disc than half its thickness are deeper in the first part than is allowed. Let the second
-/// part rest. Its surface never comes that near to the disc. And whatever the disc's orientation, it has a diameter
-/// across any given direction. So the centre is blocked at a position that is within half the thickness of the surface,
-/// or inside; or where every line through it, in the plane across some direction, comes that near to the surface before
-/// it has the length of a diameter. The certificate has a region made of boxes. All of its border is blocked, so the
-/// centre stays in it. If the parts could be apart, the centre could go anywhere.
+/// All points nearer to the disc than half its thickness are deeper in the first part than is allowed. Keep the second
+/// part fixed. Its surface never comes that near to the disc. Whatever its orientation, the disc has a diameter
+/// perpendicular to any given direction. So the centre cannot be within half the thickness of the surface, or inside.
+/// Nor can it be where every line through it, in the plane perpendicular to some direction, comes that near to the
+/// surface within the length of a diameter. The certificate has a region made of boxes. Its whole border is blocked in
+/// this sense, so the centre stays in the region. If the parts could be apart, the centre could go anywhere.
 ///
-/// The border is what is left of the faces of the boxes where no other box is on the other side. It is divided into
-/// pieces, and the lines through a piece into fans, until the middle line of each fan has a point so near to the
-/// surface that the lines beside it have one, too.
+/// The border consists of the faces of the boxes where no other box adjoins. It is divided into pieces, and the lines
+/// through a piece into fans, until the middle line of each fan has a point so near to the surface that all lines of
+/// the fan have one.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,10 +27,10 @@
 namespace dismantle::certificates {
 namespace {
 
-// Of a region: a proof has some dozens or hundreds. Their borders take the square of it.
+// In a region: proofs have dozens to hundreds. The time for the border grows with the square.
 constexpr std::size_t kMostBoxes = 20'000;
 
-/// What is left of a convex polygon where normal . p <= most.
+/// The part of a convex polygon where normal . p <= most.
 std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, const Vec3& normal, double most) {
   std::vector<Vec3> rest;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -42,8 +42,8 @@ std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, const Vec3& normal, 
   return rest;
 }
 
-/// Is the upright cylinder about the disc, higher and wider than it by `margin`, free of the surface? Then all points
-/// within `margin` of the disc are on one side.
+/// True if the surface does not meet the cylinder about the disc that extends it by `margin` in height and radius. Then
+/// all points within `margin` of the disc are on one side of the surface.
 bool cylinder_is_free(const Circle& disc, double margin, const Body& body) {
   for (std::size_t t = 0; t < body.triangles.size(); ++t) {
     std::vector<Vec3> polygon;
@@ -59,10 +59,10 @@ bool cylinder_is_free(const Circle& disc, double margin, const Body& body) {
   return true;
 }
 
-/// A rectangle across a coordinate: the box has no width there.
+/// A rectangle: a box without width along one coordinate.
 using Piece = Aabb;
 
-/// What is left of the piece outside of a rectangle, of the same plane.
+/// Adds the parts of the piece outside a rectangle in the same plane to `rest`.
 void cut_out(const Piece& piece, const Aabb& hole, Eigen::Index across, std::vector<Piece>& rest) {
   Piece left = piece;
   for (Eigen::Index d = 0; d < 3; ++d) {
@@ -82,11 +82,11 @@ void cut_out(const Piece& piece, const Aabb& hole, Eigen::Index across, std::vec
   }
 }
 
-/// The faces of the boxes, less where another box is on the other side.
+/// The faces of the boxes, except where another box adjoins.
 std::vector<Piece> border_of(const std::vector<Aabb>& boxes, const RunContext& context) {
   std::vector<Piece> border, pieces, rest;
   for (const Aabb& box : boxes) {
-    if (context.should_stop()) return border;  // all of it is looked at only if the check goes on
+    if (context.should_stop()) return border;  // the check ends, so an incomplete border does no harm
     for (Eigen::Index d = 0; d < 3; ++d)
       for (const bool upper : {false, true}) {
         Piece face = box;
@@ -114,7 +114,7 @@ class Walls {
     half_ -= rounding_of(walls_.box());
   }
 
-  /// A point at which the disc's centre may be.
+  /// True if the disc's centre is neither near the surface nor inside.
   bool free(const Vec3& p) const {
     return walls_.clearance(p, walls_.all()) > half_ &&
            std::none_of(bodies_.begin(), bodies_.end(), [&](const Body& b) { return inside(p, b); });
@@ -126,7 +126,7 @@ class Walls {
   bool spent() const { return steps_ > kMostSteps; }
 
  private:
-  // Distances from triangles: some seconds, many times what proofs need.
+  // Distances from triangles: a few seconds, many times what proofs need.
   static constexpr std::int64_t kMostSteps = 100'000'000;
 
   bool blocked(const Piece& piece, const Pose& frame, const NearestTriangles::List& list) {
@@ -134,10 +134,10 @@ class Walls {
     const double radius = 0.5 * piece.size().norm();
     const NearestTriangles::List around = walls_.around(center, radius + disc_.radius + half_, list);
     if (all_near(piece, frame, center, radius, around) || all_inside(center, radius, around)) return true;
-    if (radius < 0.7 * half_)  // lines through a larger piece differ by more than what is left for their angles
+    if (radius < 0.7 * half_)  // in a larger piece the lines differ too much in position
       for (Vec3& normal : normals_)
         if (no_diameter_fits(center, radius, normal, around)) {
-          std::swap(normal, normals_.front());  // most likely the one for the next piece, too
+          std::swap(normal, normals_.front());  // most likely also blocks the next piece
           return true;
         }
     if (radius < kSmallest * half_ || spent() || context_.should_stop()) return false;
@@ -147,9 +147,9 @@ class Walls {
     below.hi[longest] = above.lo[longest] = piece.center()[longest];
     return blocked(below, frame, around) && blocked(above, frame, around);
   }
-  static constexpr double kSmallest = 1e-3;  // radius of a piece that is not divided, of half the thickness
+  static constexpr double kSmallest = 1e-3;  // smallest radius of a piece, as a share of half the thickness
 
-  /// The distance from a triangle is a convex function: at a corner of the piece it is largest.
+  /// The distance from a triangle is a convex function, so it is largest at a corner of the piece.
   bool all_near(const Piece& piece, const Pose& frame, const Vec3& center, double radius,
                 const NearestTriangles::List& list) const {
     std::array<Vec3, 8> corners;
@@ -169,8 +169,8 @@ class Walls {
            std::any_of(bodies_.begin(), bodies_.end(), [&](const Body& b) { return b.closed && inside(center, b); });
   }
 
-  /// Does every line through a point of the ball, across the direction, come near to the surface before it is as long
-  /// as the disc's radius, on one side at least?
+  /// True if every line through a point of the ball, perpendicular to `normal`, comes near the surface within the
+  /// disc's radius on at least one side.
   bool no_diameter_fits(const Vec3& center, double radius, const Vec3& normal, const NearestTriangles::List& list) {
     NearestTriangles::List around = walls_.around_plane(center, normal, radius + half_, list);
     const Vec3 e = normal.unitOrthogonal(), f = normal.cross(e);
@@ -202,15 +202,14 @@ class Walls {
     return true;
   }
 
-  /// Of both sides of a diameter: the centre differs by no more than `radius`, the angle by no more than `spread`.
+  /// Diameters whose centre differs from `from` by at most `radius`, and whose angle differs by at most `spread`.
   struct Lines {
     Vec3 from, way, across;
     double radius, spread;
   };
 
-  /// Do all of the lines come near to the triangle, or (not `spread`) those of the same angle? Along a line, the
-  /// distance from a triangle is a convex function, and so is what the angle adds: the least is looked for by golden
-  /// sections.
+  /// True if all of the lines come near the triangle; without `spread`, only those at the middle angle. Along a line,
+  /// the distance from a triangle is convex, and so is the term for the angle. Golden section search finds the minimum.
   bool blocks(const Lines& lines, std::uint32_t triangle, bool spread) {
     const double angle = spread ? lines.spread : 0, enough = half_ - lines.radius;
     if (walls_.far_from_line(triangle, lines.from, lines.way, lines.across, disc_.radius, enough)) return false;

@@ -1,14 +1,14 @@
-/// enclosed_ball: a ball inside the first part is too large for every way out between the others.
+/// enclosed_ball: a ball inside the first part is too large for every gap between the other parts.
 ///
 /// Why the part cannot leave: a surface point of another part that is nearer to the ball's centre than the radius less
 /// the allowed depth would be deeper in the first part than is allowed. So the centre keeps a distance from every
-/// triangle of the others. A flood from the centre over cubic cells, which enters every cell that is not shown to have
-/// no such position, ends before the border of the box of the others. So all positions that the centre can reach are
-/// in a bounded component of the free ones. When the parts are apart, the centre is outside the convex hull of the
-/// others, and from there it can move away from the hull without coming nearer to anything: no bounded component.
+/// triangle of the other parts. A flood fill of cubic cells begins at the centre and enters every cell that may contain
+/// such a position. It ends before the border of the box of the other parts. So all positions that the centre can reach
+/// are in a bounded component of the free positions. When the parts are apart, the centre is outside the convex hull of
+/// the others. From there it can move away from the hull without coming nearer to anything: its component is unbounded.
 ///
-/// The clearance of a cell is that at its centre, and half of its diagonal more or less. Cells are the leaves of an
-/// octree, in which each node hands on only the triangles that matter within it.
+/// The clearance in a cell differs from that at its centre by at most half of its diagonal. Cells are the leaves of an
+/// octree. Each node passes on only the triangles that matter within it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using Cell = std::array<std::int64_t, 3>;
 
 class CellTree {
  public:
-  /// Leaves have the given edge, one of them is centred at `start`, and together they cover the walls.
+  /// Leaves have the given edge. One of them is centred at `start`. Together they cover the walls.
   CellTree(const NearestTriangles& walls, const Vec3& start, double edge, double rounding)
       : walls_(walls), edge_(edge), rounding_(rounding) {
     double most = 1;
@@ -48,7 +48,7 @@ class CellTree {
   }
   Vec3 center(const Cell& c) const { return origin_ + edge_ * (Vec3(c[0], c[1], c[2]) + Vec3::Constant(0.5)); }
 
-  /// Is there certainly no position in the cell that keeps all distances?
+  /// True if certainly no position in the cell keeps all distances.
   bool blocked(const Cell& cell) {
     std::uint32_t at = 0;
     if (nodes_.empty()) nodes_.push_back(node(origin_, levels, walls_.all()));
@@ -90,7 +90,7 @@ class CellTree {
         walls_.clearance(corner + Vec3::Constant(0.5 * std::ldexp(edge_, level)), list, half_diagonal(level), n.near);
     return n;
   }
-  /// Divides a cell that is not blocked as a whole, unless its centre is free.
+  /// Divides a cell that is not proved blocked as a whole, unless its centre is free.
   bool blocked(const Vec3& at, double edge, const NearestTriangles::List& near, int divisions) const {
     const double clearance = walls_.clearance(at, near);
     if (clearance + 0.5 * std::sqrt(3.0) * edge < -rounding_) return true;
@@ -108,7 +108,7 @@ class CellTree {
   std::vector<Node> nodes_;
 };
 
-/// Why the flood does not stay within the walls; empty when it does.
+/// Why the flood fill does not stay within the walls; empty when it does.
 std::string flood(const NearestTriangles& walls, const Vec3& start, double edge, const RunContext& context) {
   const auto outside = [&](const Vec3& p) {
     return ((p - walls.box().lo).minCoeff() < 0.5 * edge) || ((walls.box().hi - p).minCoeff() < 0.5 * edge);
@@ -124,7 +124,7 @@ std::string flood(const NearestTriangles& walls, const Vec3& start, double edge,
     const Cell cell = pending.back();
     pending.pop_back();
     if (outside(cells.center(cell))) return "there is a way out for its ball";
-    // Four times as many as the prover fills, for its cells may be halved.
+    // Four times the limit of the prover.
     if (++reached > 4'000'000) return "its ball can be in too many cells";
     if (reached % 256 == 0 && context.should_stop()) return "the check was stopped";
     for (std::size_t d = 0; d < 3; ++d)

@@ -1,4 +1,4 @@
-/// How far along a direction the free part of a box begins.
+/// Lower bound of a linear function over the free part of a box.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,17 +8,17 @@
 
 namespace dismantle::certificates {
 
-/// A closed body, in a frame along its faces, where boxes fit best.
+/// A closed body in a frame along its largest faces, where boxes fit best.
 class FreeBound {
  public:
   explicit FreeBound(const Body& body);
   /// Assembled = frame * local.
   const Eigen::Quaterniond& frame() const { return frame_; }
-  /// The least of direction . x over all points of the box that are not inside the body, or something less; infinity
-  /// where all of the box is inside. All of it is in the local frame, the box along its axes.
+  /// A lower bound of direction . x over all points of the box that are not inside the body; infinity if the whole box
+  /// is inside. All arguments are in the local frame, the box along its axes.
   ///
-  /// What is not inside, and in the box, is bounded by planes. A linear function is least at a corner of it: a corner
-  /// of the box that is not inside, or a corner of what the box leaves of a triangle.
+  /// The free part of the box is bounded by planes. A linear function is least at one of its corners: a corner of the
+  /// box that is not inside the body, or a corner of a triangle clipped to the box.
   double least(const Vec3& center, const Vec3& half, const Vec3& direction) const;
 
  private:

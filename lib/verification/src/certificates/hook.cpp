@@ -1,14 +1,13 @@
-/// hook: a bar of the first part goes through a hole of the second, and is bent on either side so that it cannot
-/// follow.
+/// hook: a bar of the first part goes through a hole of the second part, between two bends that cannot pass the hole.
 ///
-/// Let the second part rest. A line leads through the bar from the corner of one bend to that of the other, deeper in
-/// the first part than the pair may penetrate. So the surface of the second never meets it, nor does the border of a
-/// flat disc across the hole, a curve on that surface. The line crosses the disc an odd number of times at first. If
-/// the parts were apart it would be none, and the number changes between odd and even only when an end of the line
-/// crosses the disc. With the corner of a bend on the disc, both legs of the bend lead somewhere. The surface of the
-/// second part keeps a distance from each point of a leg, so not every direction is possible. All places on the disc
-/// are covered by squares; for each, all directions by cells; and no two directions that are left differ by as much as
-/// the legs do.
+/// Keep the second part fixed. A line leads through the bar from the corner of one bend to the corner of the other. It
+/// is deeper in the first part than the pair may penetrate, so the surface of the second part never meets it. Nor does
+/// the border of a flat disc across the hole, which is a curve on that surface. At first the line crosses the disc an
+/// odd number of times. If the parts were apart it would not cross the disc. The parity changes only when an end of the
+/// line crosses the disc. Suppose that the corner of a bend is on the disc. The surface of the second part keeps a
+/// distance from each point of a leg, so a leg cannot point in every direction. Squares cover all positions on the
+/// disc, and for each square cells cover all directions. No two of the remaining directions differ by as much as the
+/// legs do.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +25,7 @@
 namespace dismantle::certificates {
 namespace {
 
-/// Two straight legs from one corner. Others keep more than `keep[k]` away from the point k * step along either leg.
+/// Two straight legs from one corner. Other surfaces stay further than `keep[k]` from point k * step of either leg.
 struct Bend {
   Vec3 corner;
   double apart = 0;  ///< distance between unit vectors along the legs
@@ -34,7 +33,7 @@ struct Bend {
   std::vector<double> keep;  ///< from k = 0 on
 };
 
-/// Unit vectors within `radius` of `center`: those through a square on a face of the cube [-1, 1]^3.
+/// Unit vectors through a square on a face of the cube [-1, 1]^3; all are within `radius` of `center`.
 struct Directions {
   int axis = 0;
   Vec3 on_face = Vec3::UnitX();  ///< middle of the square
@@ -42,7 +41,7 @@ struct Directions {
   int level = 0;
 
   Vec3 center() const { return on_face.normalized(); }
-  double radius() const { return std::sqrt(2.0) * half; }  // points of the face are further out than unit vectors
+  double radius() const { return std::sqrt(2.0) * half; }  // projection to the unit sphere does not increase distances
   Directions quarter(int k) const {
     Directions d = *this;
     d.half = 0.5 * half;
@@ -65,7 +64,7 @@ class Passage {
         e_(plane.normal.unitOrthogonal()),
         f_(plane.normal.cross(e_)) {}
 
-  /// True: the corner is never on the disc.
+  /// True if the corner is proved never to be on the disc.
   bool closed() {
     Aabb box;
     for (const Vec3& p : loop_.points) box.extend(Vec3(e_.dot(p), f_.dot(p), 0));
@@ -78,7 +77,7 @@ class Passage {
 
  private:
   static constexpr std::uint64_t kMostQueries =
-      30'000'000;  // of distances; bounds the time, by a count so that answers are the same everywhere
+      30'000'000;  // distance queries; a count, so that answers do not depend on the machine
 
   bool too_near(const Vec3& p, double keep) {
     if (!(keep > rounding_)) return false;
@@ -86,7 +85,7 @@ class Passage {
     return surface_.closest(p, keep).distance < keep - rounding_;
   }
 
-  /// Is there no place for the corner in the square about `at` from which a leg can lead in one of the directions?
+  /// True if no leg can point in one of the directions while the corner is in the square about `at`.
   bool blocked(const Vec3& at, double around, const Directions& d) {
     const Vec3 along = d.center();
     for (std::size_t k = bend_.keep.size(); k-- > 1;) {
@@ -96,12 +95,13 @@ class Passage {
     return false;
   }
 
-  /// The same for a square of places, `half` of whose edge is given, and the directions that its surroundings left.
+  /// True if the corner is proved not to be in the square about `at` (`half`: of its edge). `before`: directions that
+  /// the enclosing square left.
   bool closed(const Vec3& at, double half, const std::vector<Directions>& before) {
     const double around = std::sqrt(2.0) * half;
     if (loop_.turns(at, plane_) == 0 && loop_.distance(at) > around + rounding_) return true;  // beside the disc
     if (too_near(at, bend_.keep[0] - around)) return true;
-    const bool last = 64 * half < bend_.keep[0];  // squares end at a 32nd of the distance that the corner keeps
+    const bool last = 64 * half < bend_.keep[0];  // the smallest squares have edges of less than keep[0] / 32
     std::vector<Directions> left;
     for (const Directions& d : before) leave(at, around, d, last, left);
     const auto differ = [&](const Directions& a, const Directions& b) {
@@ -118,7 +118,7 @@ class Passage {
     return true;
   }
 
-  /// Divides directions as far as squares are; to the end where places are not divided any more.
+  /// Divides directions as finely as positions; to the finest level in the last squares.
   void leave(const Vec3& at, double around, const Directions& d, bool last, std::vector<Directions>& left) {
     if (queries_ > kMostQueries || blocked(at, around, d)) return;
     const bool fine = d.radius() * bend_.step * static_cast<double>(bend_.keep.size()) < (last ? 0.0 : 2 * around);
@@ -146,7 +146,7 @@ std::vector<Vec3> points_of(const Certificate& certificate, const char* name) {
   return points;
 }
 
-/// Nothing where a leg is not deep enough.
+/// nullopt where a leg is not deep enough.
 std::optional<Bend> bend_of(const Vec3& corner, const std::vector<Vec3>& legs, double step, double count,
                             const Body& bar, double allowed) {
   if (!(step > 0) || !(count >= 2 && count <= 1000)) return std::nullopt;

@@ -6,15 +6,14 @@
 namespace dismantle::certificates {
 namespace {
 
-/// Directions through a square on a face of the cube [-1, 1]^3; half: of its edge.
+/// True if all directions through a square on a face of the cube [-1, 1]^3 have enough support. `half`: of its edge.
 bool supported(const std::vector<Vec3>& arms, double furthest, double radius, const Vec3& middle, const Vec3& e,
                const Vec3& f, double half, int divisions) {
   const Vec3 n = middle.normalized();
   double support = 0;
   for (const Vec3& arm : arms) support = std::max(support, n.dot(arm));
   if (!(support > radius)) return false;
-  // Points of the square are that far from its middle; projected to the unit sphere, on which both are nearer, no
-  // further.
+  // sqrt(2) * half is the radius of the square. Projection to the unit sphere does not increase distances.
   if (support - std::sqrt(2.0) * half * furthest > radius) return true;
   if (divisions == 0) return false;
   for (const double x : {-0.5, 0.5})
@@ -33,7 +32,7 @@ bool ball_in_hull(const Vec3& center, double radius, const std::vector<Vec3>& po
     arms.push_back(p - center);
     furthest = std::max(furthest, arms.back().norm());
   }
-  // Eight divisions: directions less than a hundredth of a rad apart. Few are divided as far.
+  // Eight divisions: directions less than a hundredth of a rad apart. Few squares are divided that far.
   for (int k = 0; k < 3; ++k)
     for (const double side : {-1.0, 1.0})
       if (!supported(arms, furthest, radius, side * Vec3::Unit(k), Vec3::Unit((k + 1) % 3), Vec3::Unit((k + 2) % 3), 1,

@@ -1,15 +1,15 @@
-/// interlock_lp: bounds of the poses of all parts that no motion reaches.
+/// interlock_lp: bounds of the poses of all parts, which no motion reaches.
 ///
 /// Poses are relative to one of the parts: a rotation vector about the centre of the part's box, and a shift of that
-/// centre, all along some axes, all 0 when assembled. The certificate has bounds of these coordinates, and of those of
-/// some parts relative to others. As long as they are kept:
-/// - The coordinates z of a pair are those of its parts, x, times a matrix, but for a rest that is bounded.
-/// - A point of one part of the pair, deeper in it than the pair may penetrate, never gets into the other part, since
-///   the other's surface would have to pass it. Its place is linear in z, but for a rest that is bounded; so it is in a
-///   box. What is free of the box lies beyond a plane (FreeBound): that is a linear inequality for x.
-/// - Sums of these with multipliers, none negative, bound every coordinate. All results are strictly within the bounds.
-/// So no motion reaches any of the bounds: it would reach one of them first, with the others kept. And within the
-/// bounds no part is apart from the others: a point of it is so deep in their hull that it stays there.
+/// centre, along given axes, all 0 when assembled. The certificate has bounds of these coordinates, and of the relative
+/// coordinates of some pairs. As long as the bounds are kept:
+/// - The coordinates z of a pair are a matrix times those of all parts, x, up to a bounded remainder.
+/// - A point of one part of the pair that is deeper in it than the pair may penetrate never enters the other part,
+///   since the other's surface would have to pass it. Its position is linear in z up to a bounded remainder, so it is
+///   in a box. The free part of the box lies beyond a plane (FreeBound), which gives a linear inequality for x.
+/// - Sums of these with multipliers >= 0 bound every coordinate. All results are strictly within the bounds.
+/// So no motion reaches any bound: it would reach one of them first, with the others kept. Within the bounds no part
+/// is apart from the others, since one of its points is so deep in their hull that it stays there.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,10 +38,10 @@ Mat3 cross_with(const Vec3& v) {
   return m;
 }
 
-/// Of |u x v| by component, where these are bounds of |u| and |v|.
+/// Componentwise bound of |u x v|, from bounds of |u| and |v|.
 Vec3 cross_bound(const Vec3& u, const Vec3& v) { return cross_with(u).cwiseAbs() * v; }
 
-/// Of |exp(w) p - p - w x p| by component, where these are bounds of |w| and |p|.
+/// Componentwise bound of |exp(w) p - p - w x p|, from bounds of |w| and |p|.
 Vec3 turn_rest(const Vec3& w, const Vec3& p) {
   return cross_bound(0.5 * w, cross_bound(w, p)) + Vec3::Constant(std::pow(w.norm(), 3) / 6 * p.norm());
 }
@@ -98,7 +98,7 @@ class Interlock {
  private:
   const std::vector<double>& list(const char* name) const { return numbers_.at(name); }
   Eigen::Index first(std::size_t member) const { return 6 * (static_cast<Eigen::Index>(member) - 1); }
-  /// Bounds of the absolute values of a member's coordinates; 0 of the first.
+  /// Bounds of the absolute values of a member's coordinates; 0 for the first member.
   Vec6 most_of(std::size_t member) const {
     return member == 0 ? Vec6(Vec6::Zero()) : Vec6(x_.most().segment<6>(first(member)));
   }
@@ -152,9 +152,9 @@ class Interlock {
     pair.b = static_cast<std::size_t>(n[1]);
     pair.z = {Eigen::Map<const Vec6>(n + 2), Eigen::Map<const Vec6>(n + 8)};
     if (pair.a == pair.b || !pair.z.around_zero()) return false;
-    // With rotation vectors u, v of a and b: log(exp(-v) exp(u)) = u - v + (u x v) / 2, and a rest of no more than
-    // (|u| + |v|)^3 / 2 while |u| + |v| <= 1/2. The shift s of a's centre as b sees it, which was at r from b's centre:
-    // exp(v) (r + s) = r + s_a - s_b, so s = s_a - s_b - (exp(v) - 1) r - (exp(v) - 1) s.
+    // With rotation vectors u, v of a and b: log(exp(-v) exp(u)) = u - v + (u x v) / 2, with a remainder of at most
+    // (|u| + |v|)^3 / 2 while |u| + |v| <= 1/2. The shift s of a's centre relative to b, from r = a's centre - b's
+    // centre: exp(v) (r + s) = r + s_a - s_b, so s = s_a - s_b - (exp(v) - 1) r - (exp(v) - 1) s.
     const Vec6 of_a = most_of(pair.a), of_b = most_of(pair.b);
     const Vec3 u = of_a.head<3>(), v = of_b.head<3>(), s = pair.z.most().tail<3>();
     const Vec3 r = axes_.conjugate() * (members_[pair.a].center - members_[pair.b].center);
@@ -172,7 +172,7 @@ class Interlock {
     return true;
   }
 
-  /// nullptr: it holds.
+  /// Returns nullptr if the row holds.
   const char* add_row(const double* n) {
     if (!(n[0] >= 0 && n[0] < static_cast<double>(pairs_.size()))) return "it is about no pair";
     const Pair& pair = pairs_[static_cast<std::size_t>(n[0])];
@@ -183,7 +183,7 @@ class Interlock {
     const Vec3 point(n[3], n[4], n[5]), direction = Vec3(n[6], n[7], n[8]).normalized();
     if (const char* wrong = objection_to_outside_point(query_, own.part, other.part, obstacle, point)) return wrong;
 
-    // Along our axes, from the centre of a: exp(w) p + s, or seen from a: exp(-w) (p - s).
+    // Along the axes, from the centre of a: exp(w) p + s for points of a. In the frame of a: exp(-w) (p - s).
     const Vec3 p = axes_.conjugate() * (point - members_[pair.a].center);
     const Vec3 w = pair.z.most().head<3>(), s = pair.z.most().tail<3>();
     Eigen::Matrix<double, 3, 6> slope;
@@ -209,7 +209,7 @@ class Interlock {
     return nullptr;
   }
 
-  /// Upper bound of target . x by the next multipliers of the list; infinite where they are not usable.
+  /// Upper bound of target . x from the next multipliers of the list; infinite if they are not usable.
   double bound(const VectorXd& target) {
     const auto& y = list("multipliers");
     const double none = std::numeric_limits<double>::infinity();
@@ -241,7 +241,7 @@ class Interlock {
     return at_ == list("multipliers").size();
   }
 
-  /// How far a point of the part may move within the bounds.
+  /// Distance that a point of the part may move within the bounds.
   double travel(std::size_t member, const Vec3& point) const {
     const Vec6 most = most_of(member);
     return most.tail<3>().norm() + most.head<3>().norm() * (point - members_[member].center).norm();
@@ -249,7 +249,7 @@ class Interlock {
 
   bool stays_among(std::size_t member) const {
     std::vector<Vec3> own, others;
-    double moved = 0;  // any of the others
+    double moved = 0;  // bound for the points of all others
     Vec3 middle = Vec3::Zero();
     for (std::size_t i = 0; i < members_.size(); ++i)
       for (const Body& body : *members_[i].bodies)
@@ -259,7 +259,7 @@ class Interlock {
         }
     for (const Vec3& v : own) middle += v / static_cast<double>(own.size());
     std::vector<Vec3> candidates{middle};
-    // Any point of the part will do: about 64 of its corners are tried.
+    // Any point of the part suffices; about 64 of its vertices are tried.
     for (std::size_t k = 0; k < own.size(); k += 1 + own.size() / 64) candidates.push_back(own[k]);
     return std::any_of(candidates.begin(), candidates.end(), [&](const Vec3& p) {
       return ball_in_hull(p, (moved + travel(member, p)) * (1 + 1e-9), others);

@@ -1,4 +1,4 @@
-/// Boxes of poses, and which of them are linked to the assembled pose.
+/// Boxes of poses, and those of them that are linked to the assembled pose.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@
 
 namespace dismantle::certificates {
 
-/// Closed: with its faces.
+/// A closed box: it includes its faces.
 struct PoseBox {
   Vec6 lo, hi;
 };
 
-/// The box around all that are linked to the pose 0 by others, each of which touches the next; nothing: 0 is in none.
-/// Something, if the context says to stop.
+/// The box around all boxes that are linked to pose 0 by a chain of touching boxes; nullopt if no box contains 0.
+/// Incomplete if the context says to stop.
 std::optional<PoseBox> linked_to_zero(const std::vector<PoseBox>& boxes, const RunContext& context);
 
 }  // namespace dismantle::certificates

@@ -22,7 +22,7 @@ void NearestTriangles::add(const Body& body, const Pose& pose, double keep) {
 double NearestTriangles::clearance(const Vec3& p, const List& list, double radius, List& kept) const {
   std::vector<std::pair<std::uint32_t, double>> near;
   double least = std::numeric_limits<double>::infinity();
-  const double reach = 2 * radius * (1 + 1e-9);  // and a little, for rounding
+  const double reach = 2 * radius * (1 + 1e-9);  // with a margin for rounding
   for (const std::uint32_t t : list) {
     const Item& item = items_[t];
     if ((p - item.middle).norm() - item.radius - item.keep > least + reach) continue;

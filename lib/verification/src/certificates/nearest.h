@@ -1,4 +1,4 @@
-/// Which triangles are the nearest ones within a ball.
+/// The triangles that may be nearest to a point of a ball.
 #pragma once
 
 #include <cstdint>
@@ -8,26 +8,26 @@
 
 namespace dismantle::certificates {
 
-/// Triangles, each with a distance that is to be kept from it. The clearance of a point is the least of distance minus
-/// that, over all of them. It changes no faster than the point moves: so do all its terms. Hence, of the terms at the
-/// centre of a ball of radius r, those which exceed the least by more than 2 r are the least nowhere in the ball.
+/// Triangles, each with a distance to keep from it. The clearance of a point is the least of (distance - kept distance)
+/// over all triangles. Neither the clearance nor any of its terms changes faster than the point moves. So a term that
+/// exceeds the least at the centre of a ball of radius r by more than 2 r is nowhere the least in the ball.
 class NearestTriangles {
  public:
   using List = std::vector<std::uint32_t>;
 
-  /// Those of a body at a pose.
+  /// Adds the triangles of a body at a pose, each with the distance `keep`.
   void add(const Body& body, const Pose& pose, double keep);
   const List& all() const { return all_; }
   const Aabb& box() const { return box_; }
-  /// The clearance over `list`. Fills `kept` with those of it that may be the least within `radius` of `p`.
+  /// The clearance over `list`. Fills `kept` with the triangles of it that may decide within `radius` of `p`.
   double clearance(const Vec3& p, const List& list, double radius, List& kept) const;
-  /// ... without the list: for single points.
+  /// The same for a single point, without `kept`.
   double clearance(const Vec3& p, const List& list) const;
-  /// Of `list`, those that may be within `reach` of the point; and of the plane through it across a unit vector.
+  /// Triangles of `list` that may be within `reach` of the point; and of the plane through it with a unit normal.
   List around(const Vec3& p, double reach, const List& list) const;
   List around_plane(const Vec3& p, const Vec3& normal, double reach, const List& list) const;
-  /// Is the triangle certainly further than `reach` from a segment, `half` long on both sides of a point? `across`: a
-  /// unit vector across the way.
+  /// True if the triangle is certainly further than `reach` from the segment p +- half * way. `way` and `across` are
+  /// orthogonal unit vectors.
   bool far_from_line(std::uint32_t t, const Vec3& p, const Vec3& way, const Vec3& across, double half,
                      double reach) const {
     const Corners& c = items_[t].corners;
@@ -43,7 +43,7 @@ class NearestTriangles {
     Corners corners;
     double keep;
     Vec3 middle;
-    double radius;  ///< of a ball about `middle` that holds it
+    double radius;  ///< of a ball about `middle` that contains the triangle
   };
   std::vector<Item> items_;
   List all_;

@@ -1,8 +1,8 @@
-/// overlap_lock: a point lies in both parts, and in the first deeper than the pair may penetrate.
+/// overlap_lock: a point lies in both parts, deeper in the first than the pair may penetrate.
 ///
-/// Why the parts cannot be separated: fix the point to the first part. When the parts are apart it is outside the
-/// second, so on the way the surface of the second passes through it. At that moment a surface point is as deep in the
-/// first part as the point is. Both depths are measured here over all triangles.
+/// Why the parts cannot be separated: fix the point to the first part. When the parts are apart, the point is outside
+/// the second part, so on the way the surface of the second part passes through it. At that moment a surface point is
+/// as deep in the first part as the point. Both depths are measured here over all triangles.
 #include <fmt/format.h>
 
 #include <algorithm>

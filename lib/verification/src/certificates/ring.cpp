@@ -1,14 +1,15 @@
-/// ring: a circle lies deep in the first part, in a chamber of the second whose openings are narrower.
+/// ring: a circle lies deep in the first part, in a chamber of the second part whose openings are narrower.
 ///
-/// Let the second part rest. Its surface never meets the circle: it would be deeper in the first part than is allowed.
-/// The chamber is a closed surface: a piece of that surface, and a flat cap across each of the curves that bound the
-/// piece. About all of the circle its winding number is the same at first, and not 0, for the circle crosses no cap. A
-/// plane cuts the circle in two points or none, and the circle is never linked with the border of a cap; so it crosses
-/// a cap in both points, equally often, or not at all. If it does, the chord between the points is no longer than the
-/// border is wide, less than the diameter. Of the two arcs the shorter one is then beyond the cap: when the crossing
-/// began it had no length, and a chord of full length would be needed for the arcs to change roles. So outside of the
-/// shorter arcs, which together are less than the circle, the winding number is what it was. There is always a point
-/// of the circle about which it is not 0, which is within the hull of the second part. The two are not apart.
+/// Keep the second part fixed. Its surface never meets the circle, since it would be deeper in the first part than is
+/// allowed. The chamber is a closed surface: a piece of that surface, and a flat cap across each curve that bounds the
+/// piece. At first the circle crosses no cap, so the winding number of the chamber is the same about all points of the
+/// circle, and it is not 0. A plane cuts the circle in two points or none, and the circle is never linked with the
+/// border of a cap. So the circle crosses a cap in both points, equally often, or not at all. If it does, the chord
+/// between the points is at most as long as the border is wide, so it is shorter than the diameter. The shorter of the
+/// two arcs is then beyond the cap: it had no length when the crossing began, and the arcs could change roles only at a
+/// chord of full length. The shorter arcs of all caps together are less than the circle. About all other points of the
+/// circle the winding number is unchanged. So a point of the circle always has a winding number other than 0, and lies
+/// in the hull of the second part. The parts are not apart.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,14 +27,14 @@
 namespace dismantle::certificates {
 namespace {
 
-/// A border of the piece. The piece is on the side of the plane where the circle is.
+/// A curve that bounds the piece. The piece is on the circle's side of the plane.
 struct Opening {
   Plane plane;
   bool keeps_above = false;
   Loop loop;
 };
 
-/// The piece of surface within the openings, as polygons, closed by caps.
+/// The piece of surface between the openings, closed by caps.
 class Chamber {
  public:
   Chamber(const Body& body, const Neighbours& neighbours, const std::vector<Opening>& openings)
@@ -42,7 +43,7 @@ class Chamber {
       for (const std::uint32_t t : openings[i].loop.triangles) cut_by_[t].push_back(i);
   }
 
-  /// Goes from triangle to triangle. False: the piece has a border that is no opening.
+  /// Collects the piece from triangle to triangle. False: the piece has a border other than its openings.
   bool grow() {
     std::vector<char> seen(body_.triangles.size(), 0);
     std::vector<std::uint32_t> pending{openings_.front().loop.triangles.front()};
@@ -56,7 +57,7 @@ class Chamber {
         const auto outside = [&](std::size_t i) { return !kept(a, i) && !kept(b, i); };
         if (std::any_of(cut_by_[t].begin(), cut_by_[t].end(), outside)) continue;
         if (next == kNone) return false;
-        // Both triangles keep the same of the edge: what cuts it belongs to both.
+        // Both triangles must keep the same part of the edge, so the openings that cut it must cut both.
         const auto alien = [&](const std::vector<std::size_t>& mine, const std::vector<std::size_t>& others) {
           return std::any_of(mine.begin(), mine.end(), [&](std::size_t i) {
             return !(kept(a, i) && kept(b, i)) && std::find(others.begin(), others.end(), i) == others.end();
@@ -72,7 +73,7 @@ class Chamber {
     return true;
   }
 
-  /// Of the piece and its caps, about a point that is on neither.
+  /// Winding number of the piece and its caps about a point. nullopt: the point is on the surface or a cap.
   std::optional<int> winding(const Vec3& p) const {
     double turns = 0;
     for (const Corners& c : triangles_) turns += solid_angle(p, c) / (4 * std::numbers::pi);
@@ -85,7 +86,8 @@ class Chamber {
     return openings_[opening].plane.above(body_.vertices[vertex]) == openings_[opening].keeps_above;
   }
 
-  /// What the openings leave of a triangle, and a triangle of the cap for each edge along which they cut it.
+  /// Adds the part of a triangle between the openings, and for each edge along which an opening cuts it a triangle of
+  /// the cap.
   void add(std::uint32_t t) {
     const Corners corners = body_.corners(t);
     std::vector<Vec3> polygon(corners.begin(), corners.end());
@@ -99,7 +101,7 @@ class Chamber {
         if (in(a)) rest.push_back(a);
         if (in(a) == in(b)) continue;
         rest.push_back(o.plane.cut(a, b));
-        on_plane[in(a) ? 0 : 1] = rest.back();  // out, then back in: the edge from the one to the other is new
+        on_plane[in(a) ? 0 : 1] = rest.back();  // [0]: where the polygon leaves, [1]: where it comes back
         ++crossed;
       }
       if (crossed > 0) {
@@ -119,7 +121,7 @@ class Chamber {
   std::map<std::size_t, Vec3> apex_;  // of each cap
 };
 
-/// The narrowest curve around the circle's axis in the plane.
+/// The narrowest curve in the plane around the circle's axis.
 std::optional<Loop> opening_in(const Body& body, const Neighbours& neighbours, const Plane& plane, const Vec3& center) {
   std::optional<Loop> narrowest;
   for (Loop& loop : section(body, neighbours, plane))
@@ -133,7 +135,7 @@ std::string objection_to_chamber(const Circle& circle, const std::vector<double>
   const double rounding = rounding_of(body.box);
   const Neighbours neighbours = neighbours_of(body);
   std::vector<Opening> openings;
-  double arcs = 0;  // what the shorter arcs may be together, rad
+  double arcs = 0;  // upper bound of the sum of the shorter arcs, rad
   for (const double offset : planes) {
     Opening o{{circle.axis, offset}, false, {}};
     if (!(std::abs(o.plane.height(circle.center)) > rounding)) return "the circle is in the plane of an opening";

@@ -20,7 +20,7 @@ Neighbours neighbours_of(const Body& body) {
         unmatched[{a, b}].emplace_back(t, k);
         continue;
       }
-      const auto [other, edge] = opposite.back();  // of several any: what matters is that they are matched
+      const auto [other, edge] = opposite.back();  // any of several will do: it only matters that edges are paired
       opposite.pop_back();
       all[t][k] = other;
       all[other][edge] = t;
@@ -61,8 +61,8 @@ std::vector<Loop> section(const Body& body, const Neighbours& neighbours, const 
     Loop loop;
     std::uint32_t t = first;
     while (t != kNone && !seen[t]) {
-      // A triangle that is cut has one edge that goes up and one that goes down. It is entered by the one that goes
-      // down and left by the other, by which the next one is entered.
+      // A triangle that is cut has one edge that goes up and one that goes down. The curve enters by the edge that goes
+      // down and leaves by the other, where it enters the next triangle.
       std::size_t up = 3, down = 3;
       for (std::size_t k = 0; k < 3; ++k) {
         const bool from = above(body.triangles[t][k]), to = above(body.triangles[t][(k + 1) % 3]);

@@ -1,14 +1,14 @@
-/// spool: a circle lies deep in the second part; the first goes through it, between two rims that are wider.
+/// spool: a circle lies deep in the second part. The first part goes through it, between two rims that are wider.
 ///
-/// Let the second part rest. The surface of the first never meets the circle: it would be deeper than is allowed. So
-/// neither does a line on it from rim to rim; nor do the convex hulls H of the rims, and the short ways from rims to
-/// them, since the circle is deeper by what these are off the surface. A plane cuts H in two points or none, and H
-/// is never linked with the circle; so H crosses the circle's disc in two points or none. The chord between them is at
-/// most as long as the circle is wide, and does not reach the middle of H, from which H is further on all sides: it
-/// cuts off one arc, beyond which the middle is not. That arc begins and ends with no length. Count the crossings of
-/// the line with the disc, and the ends of the line that are on such arcs. The sum stays even or odd: it changes only
-/// when an end crosses the disc, and then by one in both counts. At first it is one. If the parts were apart it would
-/// be 0.
+/// Keep the second part fixed. The surface of the first part never meets the circle, since it would be deeper than is
+/// allowed. So a line on this surface from rim to rim never meets the circle either. Nor do the convex hulls H of the
+/// rims, and the short segments between the rims and H, since the circle is deeper by the distance between them. A
+/// plane cuts H in two points or none, and H is never linked with the circle. So H crosses the circle's disc in two
+/// points or none. The chord between the points is at most as long as the circle is wide. It does not reach the middle
+/// of H, since all points of H are further from there than the circle's radius. So the chord cuts off one arc, on the
+/// side where the middle is not. This arc begins and ends with length 0. Add the crossings of the line with the disc
+/// and the ends of the line that are on such arcs. The parity of the sum never changes: only an end that crosses the
+/// disc changes the counts, and it changes both by one. At first the sum is 1. If the parts were apart it would be 0.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ using Vec2 = Eigen::Vector2d;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Indices of the corners, against the clock.
+/// Indices of the corners, counter-clockwise.
 std::vector<std::size_t> convex_hull(const std::vector<Vec2>& points) {
   std::vector<std::size_t> order(points.size()), hull;
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -58,13 +58,13 @@ double distance_to_line(const Vec2& p, const Vec2& a, const Vec2& b) {
   return (a + t * (b - a) - p).norm();
 }
 
-/// How far a closed curve through the points is off its convex hull: each edge of the hull has its own piece of the
-/// curve between its ends. Every point of the edge is no further from that piece than the furthest corner of the piece
-/// from the edge: the nearest point of the edge goes all along it as a point goes along the piece.
+/// Distance of a closed curve through the points from its convex hull. Each edge of the hull has its own piece of the
+/// curve between its ends. No point of the edge is further from the piece than the furthest corner of the piece is from
+/// the edge: as a point moves along the piece, its nearest point on the edge moves along the whole edge.
 double off_hull(const std::vector<Vec2>& points, const std::vector<std::size_t>& hull) {
   const std::size_t n = points.size();
   double least = std::numeric_limits<double>::infinity();
-  for (const std::size_t step : {std::size_t{1}, n - 1}) {  // the curve goes around against the clock, or with it
+  for (const std::size_t step : {std::size_t{1}, n - 1}) {  // counter-clockwise or clockwise curve
     double most = 0;
     for (std::size_t k = 0; k < hull.size(); ++k) {
       const std::size_t end = hull[(k + 1) % hull.size()];
@@ -79,9 +79,9 @@ double off_hull(const std::vector<Vec2>& points, const std::vector<std::size_t>&
 /// A rim and its convex curve.
 struct Rim {
   Loop loop;
-  double reach = 0;    ///< of the curve from its middle, the foot of the circle's centre; 0: the middle is not within
-  double off = 0;      ///< how far the rim is off the curve
-  bool above = false;  ///< the circle's plane
+  double reach = 0;    ///< distance of the curve from its middle, the projected circle centre; 0: it is outside
+  double off = 0;      ///< distance of the rim from the curve
+  bool above = false;  ///< on the side of the circle's plane to which the axis points
 };
 
 Rim rim_of(Loop loop, const Plane& plane, const Vec3& center) {
@@ -104,7 +104,7 @@ Rim rim_of(Loop loop, const Plane& plane, const Vec3& center) {
   return rim;
 }
 
-/// Vertices on one side of the plane that edges on that side join to a vertex.
+/// Vertices that edges on one side of the plane connect to `from`.
 std::vector<char> joined(const std::vector<std::vector<std::uint32_t>>& edges, const Body& body, const Plane& plane,
                          std::uint32_t from) {
   const bool above = plane.above(body.vertices[from]);
@@ -123,8 +123,8 @@ std::vector<char> joined(const std::vector<std::vector<std::uint32_t>>& edges, c
   return seen;
 }
 
-/// Is there a line along the edges of the surface from rim to rim, one above the circle's plane and one below it, that
-/// crosses the plane once, within the circle?
+/// True if a line along edges of the surface leads from a rim above the circle's plane to a rim below it and crosses
+/// the plane once, within the circle.
 bool passes(const Circle& circle, const Body& body, const Neighbours& neighbours, const std::vector<Rim>& rims,
             double rounding) {
   const Plane plane{circle.axis, circle.axis.dot(circle.center)};
@@ -134,7 +134,7 @@ bool passes(const Circle& circle, const Body& body, const Neighbours& neighbours
       edges[t[k]].push_back(t[(k + 1) % 3]);
       edges[t[(k + 1) % 3]].push_back(t[k]);
     }
-  // The line ends where a rim crosses an edge, one end of which it has reached without leaving its side of the plane.
+  // The line ends where a rim crosses an edge, after reaching an end of this edge on its side of the plane.
   const auto reaches_rim = [&](std::uint32_t from) {
     const auto seen = joined(edges, body, plane, from);
     return std::any_of(rims.begin(), rims.end(), [&](const Rim& rim) {
@@ -147,7 +147,7 @@ bool passes(const Circle& circle, const Body& body, const Neighbours& neighbours
     for (std::size_t k = 0; k < neck.points.size(); ++k) {
       if (!((neck.points[k] - circle.center).norm() < circle.radius - rounding)) continue;
       if (reaches_rim(neck.edges[k][0]) && reaches_rim(neck.edges[k][1])) return true;
-      break;  // the ends of the next edge of this curve are joined to the same vertices
+      break;  // the ends of other edges of this curve connect to the same vertices
     }
   }
   return false;

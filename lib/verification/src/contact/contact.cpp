@@ -17,7 +17,7 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// What is not deeper is rounding of coordinates: a measured depth is exact to one tolerance.
+/// Depths up to this are rounding of coordinates: a measured depth is exact to one tolerance.
 double rounding_of(double tolerance) { return 2 * tolerance; }
 
 Aabb common_box(const Aabb& a, const Aabb& b) { return {a.lo.cwiseMax(b.lo), a.hi.cwiseMin(b.hi)}; }
@@ -26,7 +26,7 @@ double smaller_diagonal(const Field& a, const Field& b) {
   return std::min(a.box().size().norm(), b.box().size().norm());
 }
 
-/// Calls f(point, normal) for all corners (without a normal: zero) and middles of triangles, until it says false.
+/// Calls f(point, normal) for all vertices (with normal zero) and triangle centres until it returns false.
 template <class F>
 bool all_points(const Field& a, const F& f) {
   for (std::size_t k = 0; k < a.solids().size(); ++k) {
@@ -65,7 +65,7 @@ bool lies_in(const Field& inner, const Field& outer, double tolerance) {
   });
 }
 
-/// Both surfaces near each other, added up.
+/// Sums over the cells of both surfaces near each other.
 struct Overlap {
   double near_area = 0, area = 0, depth_area = 0;  ///< of facing cells; depth_area: integral of the depth
   Aabb region;
@@ -86,8 +86,8 @@ struct Overlap {
 };
 
 OverlapPlace place_of(const Field& a, const Field& b, const Penetration& deepest, double tolerance) {
-  // Surfaces are near within 4 depths, or 2 % of the smaller part's diagonal. An overlap that grows from nothing to its
-  // depth, as a ball's does or a roller's, then covers less than half of what is near.
+  // Surfaces are near within 4 depths, or 2 % of the smaller part's diagonal. An overlap whose depth grows from 0, as
+  // of a ball or a roller, then covers less than half of the near surfaces.
   const double reach = std::max(4 * deepest.depth, 0.02 * smaller_diagonal(a, b));
   const double finest = std::max(0.5 * deepest.depth, tolerance);
   Overlap sum;
@@ -95,7 +95,7 @@ OverlapPlace place_of(const Field& a, const Field& b, const Penetration& deepest
   sum.add(survey(b, a, reach, finest), reach, deepest.depth, tolerance, -1);
   OverlapPlace place;
   place.at = deepest.point;
-  // Cells at the border of the overlap reach out of it, and no part of it is outside either box.
+  // Cells at the border reach out of the overlap, but no part of the overlap is outside either box.
   if (!sum.region.empty()) place.region = common_box(sum.region, common_box(a.box(), b.box()));
   place.region.extend(deepest.point);
   place.share = sum.near_area > 0 ? sum.area / sum.near_area : 0;
@@ -176,7 +176,7 @@ std::optional<PairContact> classify_contact(const DepthBody& a, const DepthBody&
   around.inflate(near);
   if (!around.overlaps(y.box())) return std::nullopt;
   PairContact found;
-  if (verify::coincident(x, y, tolerance)) {  // its depth would take long to bound, and says nothing
+  if (verify::coincident(x, y, tolerance)) {  // the depth of duplicates takes long to bound and has no meaning
     found.place = verify::place_of_duplicate(x, y);
     return found;
   }

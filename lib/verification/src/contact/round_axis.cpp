@@ -13,10 +13,10 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 using Vec2 = Eigen::Vector2d;
 
-constexpr std::size_t kSectors = 8;  // each has a contact if the contact surrounds the axis
-constexpr double kRadial = 0.5;      // cosine between a normal and the direction away from the axis, at least
+constexpr std::size_t kSectors = 8;  // each has a place if the overlap surrounds the axis
+constexpr double kRadial = 0.5;      // least cosine between a normal and the radial direction
 
-/// The point nearest to all lines that normals draw in the plane square to the axis, in its coordinates (u, v).
+/// The point nearest to all lines along normals, projected to the plane perpendicular to the axis; coordinates (u, v).
 std::optional<Vec2> center_of(const std::vector<FittedPlace>& places, const Vec3& u, const Vec3& v) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   Vec2 right = Vec2::Zero();
@@ -62,7 +62,7 @@ std::optional<RoundAxis> round_axis(const std::vector<FittedPlace>& places) {
   middle /= weight;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const FittedPlace& f : places) spread += f.weight / weight * (f.normal - mean) * (f.normal - mean).transpose();
-  if (spread.trace() < 0.02) return std::nullopt;  // a variance: within 8 degrees all normals point one way
+  if (spread.trace() < 0.02) return std::nullopt;  // a variance: the normals deviate from their mean by 8 degrees (rms)
   // Normals of a cylinder vary least along its axis; those of threads and cones need not.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(spread);
   for (int k = 0; k < 3; ++k) {

@@ -1,4 +1,4 @@
-/// The axis that an overlap goes all around.
+/// The axis that an overlap surrounds.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 
 namespace dismantle::verify {
 
-/// A place of the overlap. `normal` points out of the inner part, at whichever of the two the place was found.
+/// A place of the overlap, found on either part. `normal` always points out of the first part.
 struct FittedPlace {
   Eigen::Vector3d point, normal;
   double weight = 0;  ///< area
@@ -17,8 +17,8 @@ struct RoundAxis {
   Eigen::Vector3d point, direction;
 };
 
-/// A line about which each of eight equal sectors has a place, whose normals point all away from it or all towards it,
-/// within 60 degrees. None when there is no such line.
+/// A line such that each of eight equal sectors about it has a place, with all normals pointing away from the line or
+/// all towards it, within 60 degrees. nullopt when there is no such line.
 std::optional<RoundAxis> round_axis(const std::vector<FittedPlace>& places);
 
 }  // namespace dismantle::verify

@@ -16,8 +16,7 @@ class Surveyor {
 
   std::vector<SurfaceCell> run(double finest) {
     for (std::size_t k = 0; k < a_.solids().size(); ++k) collect(k, 0);
-    // Half of the divisions are for all cells that are near, half for those that may overlap: shares of area are then
-    // good to about a percent.
+    // Half of the divisions are for all near cells, half for those that may overlap: area shares are good to 1 %.
     divide(2000, finest, [](const SurfaceCell&) { return true; });
     divide(2000, finest, [](const SurfaceCell& c) { return c.seen.depth > -c.radius; });
     return std::move(cells_);
@@ -58,7 +57,7 @@ class Surveyor {
     if (cell.seen.depth > -limit) cells_.push_back(cell);
   }
 
-  /// Largest first; equal ones in the order in which they came.
+  /// Divides the largest cells first; equal ones in order of insertion.
   template <class Admit>
   void divide(std::size_t most, double finest, const Admit& admit) {
     using Entry = std::pair<double, std::size_t>;
@@ -89,7 +88,7 @@ class Surveyor {
     cells_.resize(kept);
   }
 
-  /// Across its longest edge.
+  /// Divides a cell across its longest edge.
   void halve(std::size_t i) {
     const std::array<Vec3, 3> p = cells_[i].p;
     const Vec3 normal = cells_[i].normal;

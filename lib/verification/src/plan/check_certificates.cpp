@@ -32,7 +32,7 @@ class CertificateCheck {
           std::shared_ptr<const std::vector<geometry::Solid>>(std::shared_ptr<void>(), &verifier.solids(part.id)));
   }
 
-  /// Empty when the certificate holds.
+  /// Returns what is wrong with the certificate; empty when it holds.
   std::string problem_of(const PlanCertificate& written) {
     Certificate certificate{written.kind, {}, {}, written.full_tolerance, written.margin, written.numbers, {}};
     for (const auto& name : written.parts) {
@@ -74,7 +74,7 @@ class CertificateCheck {
   }
 
  private:
-  /// Are its parts, at some time of the plan, where it has them?
+  /// True if its parts are, at some time of the plan, at the certificate's poses.
   bool ever_there(const Certificate& certificate) const {
     std::vector<Pose> places(certificate.parts.size());
     const auto there = [&] {

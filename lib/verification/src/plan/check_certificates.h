@@ -1,4 +1,4 @@
-/// Checks the proofs in a plan again.
+/// Checks the certificates in a plan.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace dismantle {
 
-/// What is wrong with the certificates of a plan, and with what it says of unsolved parts because of them. `motions`:
+/// Problems of the certificates of a plan, and of its statements about unsolved parts that refer to them. `motions`:
 /// the disassembly steps, from the assembled state on.
 std::vector<std::string> problems_of_certificates(const Plan& plan, const Assembly& assembly, const Verifier& verifier,
                                                   const PlanState& state, const std::vector<StepMotion>& motions,

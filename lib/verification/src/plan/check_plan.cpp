@@ -90,7 +90,7 @@ class Checker {
     return motion;
   }
 
-  /// Rule (b). True when it holds.
+  /// Checks rule (b). Returns true when it holds.
   bool motion_holds(const StepMotion& motion, const Group& others, const char* what, double& bound) {
     std::vector<PlacedPart> fixed;
     for (const PartId id : others) fixed.push_back({id, state_.place[id]});
@@ -99,7 +99,7 @@ class Checker {
       bound = check.max_penetration;
       return true;
     }
-    if (check.interrupted) return false;  // run() says so
+    if (check.interrupted) return false;  // run() reports it
     const Violation v = check.violation.value_or(Violation{});
     const Eigen::Vector3d at = assembly_.normalization.to_input(v.point);
     const std::string where = fmt::format("between poses {} and {}, at [{:.6g}, {:.6g}, {:.6g}] of '{}'", v.segment,
@@ -162,7 +162,7 @@ class Checker {
     return text;
   }
 
-  /// Rule (c): what a step separates is apart from the rest of its group, and from what else leaves it.
+  /// Checks rule (c): what a step separates is apart from the rest of its group and from other separated parts.
   void separate_groups(const PlanStep& step, std::size_t index) {
     Group rest = state_.groups[index];
     std::vector<Group> out;
@@ -224,20 +224,19 @@ class Checker {
     if (wrong.empty()) {
       result_.certificates = plan_.certificates.size();
       result_.checked_by_prover = static_cast<std::size_t>(
-          std::count_if(plan_.certificates.begin(), plan_.certificates.end(), [](const PlanCertificate& c) {
-            return certificates::checker_of(c.kind) == nullptr;
-          }));
+          std::count_if(plan_.certificates.begin(), plan_.certificates.end(),
+                        [](const PlanCertificate& c) { return certificates::checker_of(c.kind) == nullptr; }));
     }
     for (const auto& text : wrong) problem(text);
   }
 
-  /// How far a pose may be off and still be taken for another, assembly units: what is left of numbers that were
-  /// written with twelve digits or more. Far below what the certificate of a motion resolves.
+  /// Distance within which two poses count as equal, assembly units. Covers the rounding of numbers written with twelve
+  /// or more digits. Far below the resolution of a path check.
   double rounding() const { return 1e-3 * state_.tolerance(); }
 
-  /// Is `back`, from its pose `transfer` on, the checked step `index` backwards? Poses count as motions, not as
-  /// numbers: q and -q are one rotation, and no corner of the part's box may be off by more than rounding(). What that
-  /// could add to the penetration must fit under the tolerance beside what was certified.
+  /// True if `back`, from its pose `transfer` on, is the checked step `index` backwards. Poses are compared as motions:
+  /// q and -q are one rotation, and no corner of the part's box may be off by more than rounding(). The certified
+  /// penetration plus what this difference may add must be within the tolerance.
   bool is_reverse(std::size_t index, const PlanStep& back) const {
     std::vector<std::string> found;
     const auto a = state_.read(plan_.disassembly[index].moves, found), b = state_.read(back.moves, found);
@@ -255,8 +254,8 @@ class Checker {
     return true;
   }
 
-  /// Algorithm 3: each part comes from the layout, or from anywhere if there is none. What moves is checked against all
-  /// parts that are anywhere: those in place, and those that still lie in the layout.
+  /// Algorithm 3: each part comes from the layout, or from any pose if there is no layout. Moving parts are checked
+  /// against all other parts: those in place, and those that are still in the layout.
   void assembly_steps(std::size_t done, std::size_t total) {
     claims();
     if (plan_.assembly_steps.empty()) return;
@@ -268,7 +267,7 @@ class Checker {
         if (const auto id = state_.find(move.part); id && !move.poses.empty()) {
           const Pose& first = move.poses.front();
           state_.place[*id] = assembly_.normalization.pose_to_internal({first.t, first.q.normalized()});
-          // What is only shifted back is there from the beginning, unless an earlier step brings it.
+          // A part that is only shifted back is present from the beginning, unless an earlier step brings it.
           present[*id] =
               step->transfer > 0 || stays(static_cast<std::size_t>(plan_.assembly_steps.rend() - step) - 1, move.part);
         }
@@ -303,7 +302,7 @@ class Checker {
                             state_.name(0)));
   }
 
-  /// `there`: the disassembly step that this one may be the reverse of, if there is one.
+  /// `there`: index of the disassembly step that this one may reverse; beyond the last if there is none.
   void check_way(const StepMotion& motion, const Group& others, const PlanStep& step, std::size_t there) {
     double bound = 0;
     const bool reverse = there < plan_.disassembly.size() && is_reverse(there, step);
@@ -312,8 +311,8 @@ class Checker {
       motion_holds(motion, others, kWhat, bound);
       return;
     }
-    // A way in that is a checked step backwards needs no second look at what it passed then: the same parts pass
-    // each other the same way.
+    // The reverse of a checked step needs no second check against the parts that the step passed: the relative motion
+    // is the same.
     const auto at = motion.path.begin() + static_cast<std::ptrdiff_t>(step.transfer);
     if (step.transfer > 0 && !motion_holds({motion.moving, {motion.path.begin(), at + 1}}, others, kWhat, bound))
       return;
@@ -324,8 +323,8 @@ class Checker {
                                 placed(without(others, unmet))));
   }
 
-  /// Of these, what was out when disassembly step `index` began, and still is where it was then: no obstacle to the
-  /// disassembly, and so not to what is no more than the disassembly backwards.
+  /// Parts of `others` that were separated before disassembly step `index` and are still at the same place. The
+  /// disassembly passed them without a check, so its exact reverse does too.
   Group gone_then(std::size_t index, const Group& others) const {
     Group gone;
     if (plan_.assembly_status != AssemblyStatus::reversed) return gone;
@@ -341,7 +340,7 @@ class Checker {
     return plan_.assembly_steps.size() == count && plan_.disassembly[count - 1 - index].separates.empty();
   }
 
-  /// ... or one that moved `part` and separated others that it moved, not this one.
+  /// True also if that step moved `part` and separated only others of the parts that it moved.
   bool stays(std::size_t index, const std::string& part) const {
     if (only_shifts(index)) return true;
     const std::size_t count = plan_.disassembly.size();
@@ -355,7 +354,7 @@ class Checker {
                                            [&](const PlanMove& move) { return separated(move.part); });
   }
 
-  /// A plan that calls its assembly complete brings every part that was removed, from the layout.
+  /// A plan that calls its assembly complete must bring every removed part from the layout.
   void claims() {
     if (plan_.assembly_status != AssemblyStatus::complete) return;
     std::set<std::string> brought;
@@ -382,8 +381,8 @@ class Checker {
   DepthStatements depths_;
   PlanCheck result_;
   std::vector<StepMotion> motions_;             // of the disassembly steps that could be read
-  std::vector<Group> passed_;                   // by disassembly step: what its parts were checked against, ...
-  std::vector<std::vector<Pose>> places_then_;  // ... and where all parts were
+  std::vector<Group> passed_;                   // by disassembly step: the parts that it was checked against, ...
+  std::vector<std::vector<Pose>> places_then_;  // ... and the poses of all parts
   unsigned step_ = 0;
 };
 

@@ -9,7 +9,7 @@ namespace dismantle {
 
 namespace {
 
-/// Share by which a stated depth may be off, a rule of the plan format; twice the tolerance always.
+/// Relative error that the plan format allows for a stated depth. Twice the tolerance is always allowed.
 constexpr double kShare = 0.1;
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// Is what a plan says of depths true? Measured again, along the whole motion.
+/// Checks the depths that a plan states, by measuring again along the whole motion.
 #pragma once
 
 #include <optional>
@@ -12,16 +12,17 @@ namespace dismantle {
 
 class DepthStatements {
  public:
-  /// All outlive it.
+  /// All arguments must outlive it.
   DepthStatements(const Assembly& assembly, const Verifier& verifier, const PlanState& state, const RunContext& context)
       : assembly_(assembly), verifier_(verifier), state_(state), context_(context), meter_(assembly, verifier) {}
 
-  /// What is wrong with what is said of a forced motion past `fixed`; nothing when it holds.
+  /// Checks the stated depth of a forced motion past `fixed`. Returns the error; nullopt when the statement holds.
   std::optional<std::string> wrong(const PlanForced& said, const StepMotion& motion,
                                    const std::vector<PlacedPart>& fixed);
-  /// The same of a pair that a step moves past each other, the others being where they are.
+  /// The same for a pair that a step moves past each other, with the other part at its current place.
   std::optional<std::string> wrong(const PlanStepOverlap& said, const StepMotion& motion);
-  /// The same of the parts that the plan takes for flexible by their shape, measured again when the assembly was made.
+  /// The same for the parts that the plan takes for flexible by their shape, compared with the measurement made for the
+  /// assembly.
   std::optional<std::string> wrong_flexible(const PlanAssembly& said) const;
 
  private:

@@ -1,4 +1,4 @@
-/// What has become of an assembly in the course of a plan that is being checked.
+/// State of an assembly in the course of a plan that is being checked.
 #pragma once
 
 #include <map>
@@ -18,23 +18,23 @@ struct StepMotion {
   Path path;
 };
 
-/// Reads the steps of a plan and keeps the rules that need no geometry beyond boxes. Problems come as plain text.
+/// Reads the steps of a plan and checks the rules that need little geometry. Problems are plain text.
 class PlanState {
  public:
   explicit PlanState(const Assembly& assembly);
 
   std::optional<PartId> find(const std::string& name) const;
   const std::string& name(PartId id) const { return assembly_->parts[id].name; }
-  /// Poses to assembly units; checks names, counts, that poses are finite and rotations of unit length, and that no
-  /// point travels too far from pose to pose. Empty when unusable.
+  /// Converts poses to assembly units. Checks names and counts, that poses are finite with unit quaternions, and that
+  /// no point travels too far between poses. Returns nullopt for an unusable step.
   std::optional<StepMotion> read(const std::vector<PlanMove>& moves, std::vector<std::string>& problems) const;
-  /// Rule (a): what is wrong with the place where `id` starts, or nothing.
+  /// Checks rule (a), the start pose of `id`. Returns the error, or nullopt.
   std::optional<std::string> wrong_start(PartId id, const Pose& start) const;
-  /// Largest distance between where the corners of the part's box are under the two poses, assembly units.
+  /// Largest distance between the corners of the part's box at the two poses, assembly units.
   double offset(PartId id, const Pose& a, const Pose& b) const;
 
   std::vector<Pose> place;                  ///< by part, assembly units
-  std::vector<std::vector<PartId>> groups;  ///< what still hangs together
+  std::vector<std::vector<PartId>> groups;  ///< parts that are not separated yet
   double tolerance() const { return 1e-6 * size_; }
 
  private:

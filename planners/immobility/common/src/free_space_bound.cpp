@@ -17,9 +17,9 @@ struct Polygon {
   void add(const Vec3& p) { corner[count++] = p; }
 };
 
-/// Does the triangle's plane certainly miss the box about the origin? `rounding`: error of a position. The normal is
-/// the product of two edges, so its error is that of the edges; of a sliver, this is much of the normal. Positions are
-/// good to 1e-13 of the coordinates, a ten thousandth of `rounding`.
+/// True if the triangle's plane certainly misses the box about the origin. `rounding`: error of a position. The normal
+/// is the product of two edges, so its error comes from the edges; for a sliver it is a large share of the normal.
+/// Positions are exact to 1e-13 of the coordinates, a ten thousandth of `rounding`.
 bool plane_misses_box(const SampledPair::Plane& plane, const Vec3& corner, const Vec3& half, double rounding) {
   const double of_normal = 1e-4 * rounding * plane.edges * (corner.lpNorm<1>() + half.lpNorm<1>());
   return std::abs(plane.normal.dot(corner)) > plane.normal.cwiseAbs().dot(half) + rounding * plane.length + of_normal;
@@ -66,7 +66,7 @@ FreeSpaceBound free_space_bound(const SampledPair::Obstacle& obstacle, const Vec
     result.all = true;
     return result;
   }
-  // A larger box is cheaper to divide than to clip: most of its triangles do not matter for its halves.
+  // Above this, a box is cheaper to divide than to clip: most of its triangles do not matter for its halves.
   constexpr std::size_t kMostCorners = 600;
   // Directions of the box's faces, and eight of the solid's: each costs a pass over all corners.
   constexpr std::size_t kMostNormals = 6 + 8;

@@ -19,7 +19,7 @@ double depth_at(const Solid& solid, const InteriorCircle& circle, double angle) 
   return escape_at(solid.frame.inverse() * point_on(circle, angle), solid).depth;
 }
 
-/// Is all of the arc between two angles deeper than `depth`?
+/// True if the whole arc between two angles is deeper than `depth`.
 bool arc_is_deep(const Solid& solid, const InteriorCircle& circle, double depth, double from, double to) {
   const double middle = 0.5 * (from + to), half_arc = 0.5 * (to - from) * circle.radius;
   const double d = depth_at(solid, circle, middle);
@@ -63,7 +63,7 @@ SymmetryAxes symmetry_axes_of(const Solid& solid) {
     });
     if (same != faces.end())
       same->first += w;
-    else if (faces.size() < 300)  // a surface of more directions is round; its later triangles are small faces
+    else if (faces.size() < 300)  // a surface with more directions is round, and its later triangles are small
       faces.emplace_back(w, solid.normals[t]);
   }
   axes.center /= area;
@@ -71,7 +71,7 @@ SymmetryAxes symmetry_axes_of(const Solid& solid) {
   for (int k = 0; k < 3; ++k) axes.all.push_back(inertia.eigenvectors().col(k));
   std::stable_sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [w, normal] : faces) {
-    if (axes.all.size() == 6 || w < 0.02 * area) break;  // three of inertia, and three across faces that are not small
+    if (axes.all.size() == 6 || w < 0.02 * area) break;  // three of inertia, and three normals of larger faces
     if (std::none_of(axes.all.begin(), axes.all.end(),
                      [n = normal](const Vec3& known) { return std::abs(known.dot(n)) > kSameDirection; }))
       axes.all.push_back(normal);

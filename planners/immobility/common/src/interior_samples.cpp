@@ -13,10 +13,10 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// Moves inwards from a point of the surface until the solid is `depth` deep there. Nothing: it is too thin there.
+/// Moves inwards from a point of the surface to a point at `depth`. Returns nullopt where the solid is too thin.
 std::optional<Vec3> sunk(const Solid& solid, const Vec3& from, const Vec3& inward, double depth) {
   Vec3 p = from + depth * inward;
-  for (int k = 0; k < 24; ++k) {  // mostly one or two; a wedge that is too thin makes the point go back and forth
+  for (int k = 0; k < 24; ++k) {  // mostly one or two are enough; in too thin a wedge the point oscillates
     const ClosestPoint c = solid.bvh.closest(p);
     if (c.distance >= depth) return solid.bvh.inside(p) ? std::optional(p) : std::nullopt;
     if (c.distance < 1e-6 * depth || !solid.bvh.inside(p)) return std::nullopt;
@@ -74,7 +74,7 @@ SampledPair::SampledPair(const std::vector<Solid>& a, const std::vector<Solid>& 
   Aabb both = box_a;
   both.extend(box_b.lo);
   both.extend(box_b.hi);
-  // As much as errors of positions may be, and more than checkers of certificates give away.
+  // Bound of position errors, larger than the rounding that checkers of certificates assume.
   const double rounding =
       kRounding * (both.size().norm() + std::max(both.lo.cwiseAbs().maxCoeff(), both.hi.cwiseAbs().maxCoeff()));
   for (const auto* solids : {&a, &b})

@@ -9,7 +9,7 @@ namespace dismantle::immobility {
 namespace {
 
 // Rounding of the final sums. Coordinates are angles and shifts of parts, of order 1 or less. A hundredth of
-// geometry::kRounding: with that a proof about four parts took twelve times as long, and failed.
+// geometry::kRounding: with kRounding itself, a proof about four parts took twelve times as long, and failed.
 constexpr double kSumRounding = 1e-11;
 
 /// Rows 0 .. m-1 are the polytope's own; then the upper and the lower bound of each coordinate.
@@ -36,7 +36,7 @@ class Rows {
   double slack(const Vector& residual) const {
     return residual.cwiseAbs().dot(p_.lo.cwiseAbs().cwiseMax(p_.hi.cwiseAbs()));
   }
-  /// By how much `x` violates the row; rows of the polytope are not unit vectors.
+  /// Amount by which `x` violates the row. Rows of the polytope are not unit vectors.
   double violation(std::size_t r, const Vector& x) const {
     return r < own_ ? p_.a[r].dot(x) - p_.b[r] : sign(r) * x[coordinate(r)] - bound(r);
   }

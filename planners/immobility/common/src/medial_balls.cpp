@@ -34,10 +34,10 @@ void for_each_in_chunks(std::size_t count, const RunContext& context, const Body
                [&] { return context.should_stop(); });
 }
 
-/// Climbs the distance from the surface by steps that are halved where they do not help. A ball that touches a flat
-/// facet beside its middle is smaller than the largest one nearby. Steps are shorter than the distance, so none leaves
-/// the solid. Most steps are refused by the triangle that refused the last one, so that is tried first, and it bounds
-/// the search for a closer triangle.
+/// Moves a centre to larger distances from the surface; steps that do not help are halved. This is needed since a ball
+/// that touches a flat facet beside its middle is smaller than the largest one nearby. Steps are shorter than the
+/// distance, so none leaves the solid. The triangle that refused the last step mostly refuses the next one, so it is
+/// tried first, and it bounds the search for a closer triangle.
 Vec3 climbed(const Solid& bar, Vec3 p) {
   const auto distance_to = [&](std::uint32_t triangle, const Vec3& from) {
     const auto& c = bar.bvh.corners(triangle);
@@ -71,7 +71,7 @@ std::vector<MedialBall> medial_balls(const Solid& bar, double least, const RunCo
   if (!(largest > least)) return balls;
   double area = 0;
   for (std::size_t t = 0; t < bar.mesh.triangles.size(); ++t) area += 0.5 * geometry::area_vector(bar.mesh, t).norm();
-  // About 2000 samples of the surface: on fewer, thin branches are missed; each costs some distance queries.
+  // About 2000 samples of the surface: fewer miss thin branches, and each costs a few distance queries.
   const double spacing = std::max(least, std::sqrt(area / 2000));
   std::vector<std::vector<Vec3>> below(bar.mesh.triangles.size());  // by triangle: centres of balls that touch it
   for_each_in_chunks(below.size(), context, [&](std::size_t t) {
@@ -108,7 +108,7 @@ std::vector<MedialBall> medial_balls(const Solid& bar, double least, const RunCo
 const std::vector<std::vector<MedialBall>>* medial_balls_of(const SeparationQuery& query, PartId part,
                                                             const RunContext& context) {
   using Balls = std::vector<std::vector<MedialBall>>;
-  // A ball of the tolerance's size keeps nothing away. A tenth more is the least of which a proof can make use.
+  // A ball as large as the tolerance blocks nothing. A tenth more is the least radius that a proof can use.
   const double least = 1.1 * query.tolerance;
   return query.memo.get<Balls>("medial balls above " + std::to_string(least), part, context,
                                [&]() -> std::optional<Balls> {

@@ -51,7 +51,8 @@ auto Occupancy::classify(const Vec3& center) const -> State {
 std::optional<int> Occupancy::crossings(const Mixed& cell, const Vec3& to) const {
   // Each triangle costs a few dozen operations; with more, the hierarchy of the whole solid is faster.
   if (cell.triangles.size() > 48) return std::nullopt;
-  // Six times the volume of a tetrahedron, as a share of the product of its edges: the sign of less is rounding.
+  // Six times the volume of a tetrahedron, as a share of the product of its edges. Below this, rounding decides the
+  // sign.
   constexpr double kTooFlat = 0.1 * kRounding;
   const Vec3 way = to - cell.center;
   int sum = 0;
@@ -60,7 +61,7 @@ std::optional<int> Occupancy::crossings(const Mixed& cell, const Vec3& to) const
     const Vec3 a = corners[0] - cell.center, b = corners[1] - cell.center, c = corners[2] - cell.center;
     const Vec3 normal = (b - a).cross(c - a);
     const double from_height = -normal.dot(a), to_height = normal.dot(way) + from_height;
-    // Relative to the edges, not to the normal: that of a sliver is mostly rounding.
+    // Relative to the edges, since the normal of a sliver is mostly rounding.
     const double flat = kTooFlat * (b - a).norm() * (c - a).norm() * (a.norm() + way.norm());
     // Both ends are certainly on one side.
     if ((from_height > flat && to_height > flat) || (from_height < -flat && to_height < -flat)) continue;

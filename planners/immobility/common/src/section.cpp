@@ -19,7 +19,7 @@ std::optional<double> meets(const Vec3& p, const Vec3& d, const std::array<Vec3,
   const Vec3 from = p - c[0];
   if (std::abs(det) <= kRounding * size) {
     const Vec3 normal = u.cross(v);
-    if (!(normal.norm() > 1e-14 * size)) return std::nullopt;  // degenerate: its edges are parallel to double precision
+    if (!(normal.norm() > 1e-14 * size)) return std::nullopt;  // degenerate: parallel edges in double precision
     const bool in_plane = std::abs(from.dot(normal.normalized())) <= kRounding * (from.norm() + u.norm() + v.norm());
     return in_plane ? std::optional(std::numeric_limits<double>::infinity()) : std::nullopt;
   }
@@ -112,8 +112,7 @@ std::vector<double> Surface::offsets(const Vec3& direction, std::size_t most) co
   std::sort(all.begin(), all.end());
   std::vector<double> heights;
   for (const double h : all)
-    if (heights.empty() || h > heights.back() + 1e-7 * size_)
-      heights.push_back(h);  // else in one plane, but for rounding
+    if (heights.empty() || h > heights.back() + 1e-7 * size_) heights.push_back(h);  // else in one plane up to rounding
   std::vector<double> offsets;
   const std::size_t step = 1 + 3 * heights.size() / most;
   for (std::size_t k = 0; k + 1 < heights.size(); k += step)
@@ -202,7 +201,7 @@ std::optional<Surface::Closed> Surface::closed_by(const std::vector<Loop>& loops
       piece.kept.emplace_back(loops[i].plane, sign(i));
     }
     for (std::uint32_t k = 0; k < 3; ++k) {
-      // Is a piece of this edge kept? An end exactly in a plane counts as below it, as in section().
+      // Tests whether a piece of this edge is kept. An end exactly in a plane counts as below it, as in section().
       const std::uint32_t a = triangles_[t][k], b = triangles_[t][(k + 1) % 3];
       bool kept = true;
       for (const std::size_t i : on[t]) {
@@ -214,7 +213,7 @@ std::optional<Surface::Closed> Surface::closed_by(const std::vector<Loop>& loops
       if (!kept) continue;
       const std::uint32_t next = neighbours_[t][k];
       if (next == kNoIndex) return std::nullopt;
-      // Does the surface arrive at the other side of a loop?
+      // Tests whether the surface reaches the other side of a loop.
       for (const std::size_t i : on[next]) {
         const auto off_side = [&](std::uint32_t v) {
           return (loops[i].plane.height(vertices_[v]) > 0) != (sign(i) > 0);
@@ -234,7 +233,7 @@ std::optional<Surface::Closed> Surface::closed_by(const std::vector<Loop>& loops
 }
 
 std::optional<bool> Surface::Closed::inside(const Vec3& p) const {
-  // Five directions that are not along the axes or diagonals of usual models, where rays meet edges.
+  // Five directions off the axes and diagonals of usual models, where rays meet edges.
   static const std::array<Vec3, 5> rays = {Vec3(0.61, 0.37, 0.70), Vec3(-0.53, 0.81, 0.25), Vec3(0.29, -0.44, 0.85),
                                            Vec3(0.71, 0.13, -0.69), Vec3(-0.38, -0.91, 0.17)};
   std::optional<bool> answer;

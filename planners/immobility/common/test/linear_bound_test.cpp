@@ -1,4 +1,4 @@
-// A linear bound is one, and no larger than it need be.
+// Linear bounds are valid and tight.
 #include "dismantle/immobility/linear_bound.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ void expect_bounds(Rng& rng, Eigen::Index n) {
   const auto found = immobility::maximum(direction, polytope);
   ASSERT_FALSE(found.empty);
   ASSERT_TRUE(std::isfinite(found.value));
-  // What it says is reached is within, so there is no smaller bound; and it is a bound of all that is within.
+  // The returned point is in the polytope, so the bound is tight; and it holds for all points of the polytope.
   for (int r = 0; r < rows; ++r)
     EXPECT_LE(polytope.a[static_cast<std::size_t>(r)].dot(found.at), polytope.b[static_cast<std::size_t>(r)] + 1e-8);
   EXPECT_TRUE(((found.at - polytope.hi).array() <= 1e-8).all() && ((polytope.lo - found.at).array() <= 1e-8).all());

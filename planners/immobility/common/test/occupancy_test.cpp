@@ -1,4 +1,4 @@
-// What a grid remembers of a solid says the same as the solid itself.
+// The occupancy grid of a solid agrees with the solid itself.
 #include "dismantle/immobility/occupancy.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-/// Queries about small assemblies, and the laws that every answer has to keep.
+/// Queries about small assemblies, and the laws that every answer must obey.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -40,8 +40,7 @@ class ProverRig {
     return prover.prove(query(assembled(moving), assembled(fixed), share), context);
   }
 
-  /// As the first part of the certificate against the others, by the checker of that kind; by the prover if there is
-  /// none.
+  /// Objection to the certificate, first part against the others, by the checker of the kind, else by the prover.
   std::string objection(const ImmobilityProver& prover, const std::string& kind, Certificate c,
                         double share = 1) const {
     std::vector<PlacedPart> moving, fixed;
@@ -62,8 +61,8 @@ class ProverRig {
   std::unique_ptr<PartMemo> memo_ = std::make_unique<PartMemo>();
 };
 
-/// Parts 0 and 1, anywhere in space. The answer is the same either way round, on any number of threads, and after a
-/// call that was told to stop; the prover accepts its own certificate, and none with another number in it.
+/// Proves parts 0 and 1, anywhere in space. The answer does not depend on the order of parts, the number of threads, or
+/// an earlier call that was told to stop. Its certificate must be accepted.
 inline std::optional<Certificate> prove_pair(const ImmobilityProver& prover, const std::string& kind, const Mesh& a,
                                              const Mesh& b, double tolerance, Rng& rng, double share = 1) {
   const Pose turned = shapes::random_pose(rng, 2);
@@ -92,7 +91,7 @@ inline std::optional<Certificate> prove_pair(const ImmobilityProver& prover, con
   return found;
 }
 
-/// Does the verifier let `part` leave `of` by that translation?
+/// True if the verifier accepts that `part` leaves `of` by that translation.
 inline bool comes_out(const Mesh& part, const Mesh& of, const Eigen::Vector3d& by, double tolerance) {
   const Verifier verifier(shapes::assembly_of({part, of}), {tolerance});
   return verifier.check_motion({0}, {{1, Pose{}}}, {{Pose{}}, {shapes::shift(by)}}).valid;

@@ -1,5 +1,5 @@
-// Parts count as confined only when no motion that penetrates half as deep as the tolerance separates them, for any
-// shape and pose.
+// Parts count as caged only when no motion that penetrates by half of the tolerance separates them, for any shape and
+// pose.
 #include "configuration_cells/configuration_cells.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ ProverRig rig_of(const Cased& c, const Pose& turned) {
 
 Verifier verifier_of(const ProverRig& rig, double allowed = kTolerance) { return Verifier(rig.assembly(), {allowed}); }
 
-/// What was proved, for motions that cut in half as deep as the tolerance.
+/// Certificate for motions that penetrate by half of the tolerance.
 struct Confined {
   std::vector<PartId> parts;
   double depth = 0, shift = 0, turn = 0, cells = 0;

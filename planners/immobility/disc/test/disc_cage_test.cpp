@@ -40,7 +40,7 @@ Mesh tray(const Vec3& half, double wall) {
   return m;
 }
 
-/// A lid at a height, with a window of those half widths; it goes into the walls.
+/// A lid at a height, with a window of those half widths; it overlaps the walls.
 Mesh lid(double height, double thick, double x, double y, double reach) {
   Mesh m;
   for (const double s : {-1.0, 1.0}) {

@@ -31,7 +31,7 @@ Mesh room(double window) {
   return m;
 }
 
-/// Its certificate is accepted, and none with a larger ball or with finer claims.
+/// Its certificate is accepted, and none with a larger ball, another pose or a missing number.
 std::optional<Certificate> enclosed(const ProverRig& rig, const std::vector<PlacedPart>& moving,
                                     const std::vector<PlacedPart>& fixed) {
   auto found = EnclosedBall{}.prove(rig.query(moving, fixed), {});

@@ -45,7 +45,7 @@ TEST(Hook, NotWhereABendIsMissingOrTheHoleIsWide) {
     const Mesh one_bend = shapes::bent_bar(crank(-reach, 1, pi / 2, 0, 1), half);
     EXPECT_FALSE(certificate_of(one_bend, shapes::plate(1.6 * half, thick), rng));
     EXPECT_TRUE(comes_out(one_bend, shapes::plate(1.6 * half, thick), {0, 0, -4}));
-    // Through this one the bar can be led like a thread: its bends have room to turn in it.
+    // The bar can be threaded through this hole, where its bends have room to turn.
     const Mesh two_bends = shapes::bent_bar(crank(-reach, reach, pi / 2, pi / 2, 1), half);
     EXPECT_FALSE(certificate_of(two_bends, shapes::plate(6 * half, thick), rng));
     // Nor where the bends are gentle.

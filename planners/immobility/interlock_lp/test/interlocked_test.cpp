@@ -34,7 +34,7 @@ ProverRig rig_of(const Keyed& k, const Pose& turned) {
 
 Verifier verifier_of(const ProverRig& rig, double allowed = kTolerance) { return Verifier(rig.assembly(), {allowed}); }
 
-/// What was proved, for motions that cut in half as deep as the tolerance.
+/// Certificate for motions that penetrate by half of the tolerance.
 struct Interlocked {
   std::vector<PartId> parts;
   double depth = 0, shift = 0, turn = 0, half_spaces = 0;

@@ -1,4 +1,4 @@
-// Overlapping parts are called locked only when no valid motion parts them.
+// Overlapping parts are called locked only when no valid motion separates them.
 #include "overlap_lock/overlap_lock.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using shapes::Vec3;
 
 constexpr double kAllowed = 0.01;
 
-/// A plate and a pin through it, whose head and foot reach so far over the hole's edge that overlap is `deep`.
+/// A plate and a pin through it, whose head and foot extend beyond the hole's edge so that the overlap is `deep`.
 Assembly pinned(double overlap, const Pose& at) {
   const Mesh plate = box({-2, -2, -0.5}, {2, 2, 0.5});
   const Mesh pin = box({-0.3, -0.3, -1}, {0.3, 0.3, 1});

@@ -1,4 +1,4 @@
-// A ring is called caged only when no motion within the limits leads it out, wherever the assembly stands.
+// A ring is called caged only when no motion within the limits leads it out, at any pose of the assembly.
 #include "ring/ring.h"
 
 #include <gtest/gtest.h>

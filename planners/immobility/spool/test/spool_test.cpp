@@ -63,8 +63,8 @@ TEST(Spool, NotASpoolOneOfWhoseRimsGoesThroughWithinWhatIsAllowed) {
   EXPECT_FALSE(certificate_of(moved(spool(0.3, 0.8, 0.8), shapes::shift({0, 0, 0.6})), shapes::plate(0.4, 0.3), rng));
 }
 
-/// The inner radius of a nearly convex curve; nothing where a slit leads through it from side to side, although all of
-/// its points are near the hull.
+/// The inner radius of a nearly convex curve; none for a curve with a slit from side to side, although all of its
+/// points are near the hull.
 TEST(Spool, ARimWithASlitIsNotConvex) {
   Rng rng(11);
   for (int i = 0; i < 50; ++i) {

@@ -9,9 +9,9 @@
 
 namespace dismantle {
 
-/// What is wrong with a certificate, by a small checker of its kind that shares no code with the provers; empty when it
-/// holds. The query has the certificate's first part moving and the others fixed, where the certificate has them.
-/// Nothing: there is no such checker, as for kinds of provers out of tree.
+/// Checks a certificate with the independent checker of its kind, which shares no code with the provers. Returns what
+/// is wrong with it; empty when it holds. Returns nullopt for kinds without such a checker, as those of out-of-tree
+/// provers. In the query the certificate's first part moves and the others are fixed, at the certificate's poses.
 DISMANTLE_API std::optional<std::string> independent_objection(const Certificate& certificate,
                                                                const SeparationQuery& query, const RunContext& context);
 

@@ -15,29 +15,29 @@
 
 namespace dismantle {
 
-/// One thing that is wrong with a plan.
+/// One error in a plan.
 struct PlanProblem {
   unsigned step = 0;  ///< 0 = the plan as a whole
   std::string message;
 };
 
-/// What the check of a whole plan found.
+/// Result of the check of a whole plan.
 struct PlanCheck {
-  bool valid = false;      ///< every step is a valid motion that separates what it says, and every certificate holds
-  bool complete = false;   ///< valid, no step is forced, and every group is down to one part
-  std::size_t forced = 0;  ///< steps that are forced: not valid motions, but what is said of their depth is true
-  std::size_t certificates = 0;       ///< that hold
-  std::size_t checked_by_prover = 0;  ///< of these: by the prover that made them, for want of an independent checker
+  bool valid = false;                 ///< all motions, separations, stated depths and certificates are as the plan says
+  bool complete = false;              ///< valid, no step is forced, and every group is down to one part
+  std::size_t forced = 0;             ///< forced steps: not valid motions; their stated depths were checked
+  std::size_t certificates = 0;       ///< number of certificates that hold
+  std::size_t checked_by_prover = 0;  ///< those checked by their prover, since there is no independent checker
   double max_penetration = 0;         ///< worst certified bound over all steps
   std::vector<double> step_penetration;
   std::vector<PlanProblem> problems;
 };
 
-/// The prover that makes certificates of a kind; nullptr: there is none.
+/// Returns the prover that makes certificates of a kind, or nullptr if there is none.
 using ProverOfKind = std::function<std::shared_ptr<const ImmobilityProver>(const std::string& kind)>;
 
-/// Certificates are checked by independent checkers (check_certificate.h); those of a kind that has none, by the prover
-/// of the kind. Without either a certificate does not hold.
+/// A certificate is checked by the independent checker of its kind (check_certificate.h), else by the prover of its
+/// kind. A certificate that neither can check does not hold.
 DISMANTLE_API PlanCheck check_plan(const Plan& plan, const Assembly& assembly, const VerifyOptions& options,
                                    RunContext& context, const ProverOfKind& prover_of = {});
 

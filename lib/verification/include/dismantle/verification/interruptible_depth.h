@@ -6,7 +6,7 @@
 
 namespace dismantle {
 
-/// As deepest_penetration(), until `context` says to stop: then what was found so far, still a lower bound.
+/// As deepest_penetration(). When `context` says to stop, returns the deepest point so far, still a lower bound.
 Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
                                 double tolerance, const RunContext& context);
 

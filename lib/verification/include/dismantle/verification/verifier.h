@@ -20,17 +20,17 @@ namespace geometry {
 struct Solid;
 }
 
-/// Work that the verifier may spend on proofs, per pair of solids. Counts, so that answers do not depend on the
-/// machine. A proof that needs more fails, and the motion is refused as uncertain.
+/// Work that the verifier may spend on proofs, per pair of solids, as counts, so that answers do not depend on the
+/// machine. If a proof needs more, the motion is refused as uncertain.
 struct VerifyBudget {
-  std::uint64_t tests = 1'000'000;          ///< sweep tests for a bound that decides, > 0
-  std::uint64_t tests_per_segment = 8'000;  ///< and for each segment of the path
-  std::uint64_t patches = 80'000;           ///< patches of surface for a bound that decides, > 0
-  std::uint64_t overlap_factor = 5;         ///< times as many patches for pairs that overlap by more than the tolerance
-  double trial_share = 0.1;                 ///< share for bounds that need not hold, and for passes(), (0, 1]
-  double resolution = 0.125;                ///< share of the penetration allowed at which division ends, (0, 1]
+  std::uint64_t tests = 1'000'000;          ///< sweep tests for a rung that decides, > 0
+  std::uint64_t tests_per_segment = 8'000;  ///< added for each segment of the path
+  std::uint64_t patches = 80'000;           ///< surface patches for a rung that decides, > 0
+  std::uint64_t overlap_factor = 5;  ///< factor on `patches` for pairs whose initial overlap exceeds the tolerance
+  double trial_share = 0.1;          ///< share of both for rungs that may fail, and for passes(), (0, 1]
+  double resolution = 0.125;         ///< division ends at this share of the allowed penetration, (0, 1]
 
-  /// With `factor` times as many tests and patches.
+  /// The budget with `factor` times as many tests and patches.
   VerifyBudget times(double factor) const;
 };
 
@@ -44,12 +44,12 @@ struct VerifyOptions {
 struct Violation {
   PartId part = 0, other = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< of `part`, its assembled frame
-  double depth = 0;    ///< measured depth at `point` in `other`; beyond what the law allows there unless `uncertain`
-  double allowed = 0;  ///< initial overlap of the pair; 0 where it does not overlap then
-  bool elsewhere = false;   ///< the pair overlaps when assembled, and not there
+  double depth = 0;         ///< measured depth of `point` in `other`; beyond the limit there unless `uncertain`
+  double allowed = 0;       ///< initial overlap of the pair; 0 outside the region of the overlap
+  bool elsewhere = false;   ///< the pair has an initial overlap, but not at this place
   std::size_t segment = 0;  ///< path segment (between instants segment and segment + 1)
   double u = 0;             ///< place in the segment, [0, 1]
-  bool uncertain = false;   ///< could not be certified at the resolution limit, but no point beyond was found
+  bool uncertain = false;   ///< the proof failed, but no point beyond the limit was found
 };
 
 /// The verifier's answer about a motion.
@@ -59,59 +59,58 @@ struct MotionCheck {
       0;  ///< valid: certified upper bound above the initial overlap (a rung: max_penetration / 100 or more)
   std::optional<Violation> violation;
   std::uint64_t tests = 0;   ///< elementary sweep tests done
-  bool interrupted = false;  ///< not valid, since the check was stopped
+  bool interrupted = false;  ///< the check was stopped, so the motion is not valid
 };
 
 /// Rule (b) on the original triangles, proved for every instant, not sampled.
 ///
-/// The law. Depth of a surface point of one part in another: its distance to the other's surface if it lies inside.
-/// Parts are taken shell by shell (an outer shell with its voids), so that shells which overlap hide nothing. At
-/// every instant of the screw motions between poses, for every two parts that move relative to each other:
+/// The law. The depth of a surface point of one part in another part is its distance to the other's surface if it lies
+/// inside. Parts are checked shell by shell (an outer shell with its voids), so that overlapping shells hide nothing.
+/// At every instant of the screw motions between poses, for every two parts that move relative to each other:
 ///   1. no surface point is deeper than the pair's initial overlap plus max_penetration;
-///   2. neither part passes through the other, however thin it is. To that end either a point on a triangle of
+///   2. neither part passes through the other, however thin it is. To ensure this, either a point on a triangle of
 ///      thickness h (inward ray to the opposite side, the least of four samples) is no deeper than initial overlap
 ///      plus h / 4, in both parts; or one copy of a part, shrunken by no more than that everywhere, stays off the
 ///      other part's surface all the time.
-///   3. of pairs whose initial overlap, as measured, is more than ten times max_penetration: a point outside the region
-///      of that overlap keeps to both laws as if there were none. The region is a box around all of the initial
-///      overlap, grown by its depth and max_penetration. A point is in it where it is so in its own part as assembled,
-///      or in the other part as assembled: what leaves along its axis takes its region along, and what comes after it
-///      passes through that of the other. An overlap that the user declares, or that is in a flexible part, has no
-///      region.
-/// A part inside the void of another is outside its material. Accepted means proved. Refused means that a point
-/// beyond the limit was found, or (`uncertain`) that the proof failed at the resolution or within the
-/// counts of VerifyBudget; motions that keep to 0.4 times the limit are not
-/// refused at ordinary corners.
+///   3. if the measured initial overlap exceeds ten times max_penetration, it is allowed only in its region: points
+///      outside the region obey both laws as if there were no overlap. The region is a box around all of the initial
+///      overlap, grown by its depth and max_penetration. It is attached to both parts: a point is in it if it is in
+///      the box in the assembled frame of either part. So a pin that leaves along its axis takes one region along, and
+///      its following points pass through the region of the other part. An overlap that the user declares, or that is
+///      in a flexible part, has no region.
+/// A part inside a void of another part is outside its material. Accepted means proved. Refused means that a point
+/// beyond the limit was found, or (`uncertain`) that the proof failed at the resolution or within the counts of
+/// VerifyBudget. Motions that keep to 0.4 times the limit are not refused at ordinary corners.
 ///
-/// The proof: let the corners of a triangle be displaced by at most e. If the displaced triangle sweeps a hull that
-/// meets no triangle of the other part, and one of its points is outside it, no point of the triangle gets deeper
-/// than e. For straight motion the swept hull is exact and a whole slide is one test per triangle; turning motion is
-/// cut into intervals whose sagitta is covered by a margin.
+/// The proof: displace the corners of a triangle by at most e. If the displaced triangle sweeps a hull that meets no
+/// triangle of the other part, and one of its points is outside the other part, no point of the original triangle gets
+/// deeper than e. For straight motion the swept hull is exact, and a whole slide is one test per triangle. Turning
+/// motion is cut into intervals whose sagitta is covered by a margin.
 ///
 /// Built once per assembly; const functions are safe to call from several threads.
 class DISMANTLE_API Verifier {
  public:
-  /// Idle threads of the context's executor help to build it; it does not depend on that. @throws Error when the
-  /// context says to stop while parts of many thousand triangles are made ready.
+  /// Idle threads of the context's executor help to build it; the result does not depend on them. @throws Error when
+  /// the context says to stop while parts with many thousand triangles are prepared.
   Verifier(const Assembly& assembly, VerifyOptions options, const RunContext& context = {});
   ~Verifier();
 
-  /// (b): the moving parts follow `path` (columns as `moving`) past `fixed`. Pairs that do not move
+  /// Checks rule (b): the moving parts follow `path` (columns as `moving`) past `fixed`. Pairs that do not move
   /// relative to each other are not checked.
   MotionCheck check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& fixed,
                            const Path& path) const;
   /// The same on the threads of `context`, until it says to stop.
   MotionCheck check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& fixed, const Path& path,
                            const RunContext& context) const;
-  /// (b) for one part past another, for callers with many such questions: true is proved, as by check_motion; false
-  /// means refused, or not proved with VerifyBudget::trial_share of the budget.
+  /// Rule (b) for one part past another, for callers with many such questions. True is proved, as by check_motion().
+  /// False means refused, or not proved with VerifyBudget::trial_share of the budget.
   bool passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& way) const;
-  /// (c): the hull of `group` is apart from the hull of `rest`, on all original vertices.
+  /// Rule (c): the hulls of all original vertices of `group` and of `rest` are disjoint.
   bool apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const;
   const VerifyOptions& options() const;
   std::size_t parts() const;
-  /// Where alone two parts may be deeper in each other than max_penetration; assembly units, assembled. None: as rule 1
-  /// says, wherever they are.
+  /// The only region where two parts may be deeper in each other than max_penetration; assembly units, assembled frame.
+  /// nullopt: the initial overlap is allowed everywhere (law 1).
   std::optional<Aabb> overlap_region(PartId a, PartId b) const;
   /// Corners of the convex hull of a part, in its assembled frame.
   const std::vector<Eigen::Vector3d>& hull(PartId part) const;
@@ -123,7 +122,7 @@ class DISMANTLE_API Verifier {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A mesh made ready for measuring depths: worth keeping when one part meets several others. Immutable.
+/// A mesh prepared for depth queries; reuse it when one part meets several others. Immutable.
 class DISMANTLE_API DepthBody {
  public:
   explicit DepthBody(const Mesh& mesh, const geometry::Poll& poll = {});
@@ -137,17 +136,17 @@ class DISMANTLE_API DepthBody {
   std::unique_ptr<const Impl> impl_;
 };
 
-/// How deep two parts penetrate each other, and where. Depth 0: they do not, and `point` means nothing.
+/// How deep two parts penetrate each other, and where. If `depth` is 0, they do not, and `point` is undefined.
 struct Penetration {
   double depth = 0;                                 ///< >= 0, in the unit of the meshes
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< deepest surface point that was found, world
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< deepest surface point found, world
 };
 
-/// Depth in assembly units to which the surfaces of the two meshes penetrate each other: the largest
-/// distance from a surface point of one, inside the other, to the other's surface, both ways.
-/// Shell by shell as in the verifier's law. Exact to `tolerance` (> 0) from below; 0 when they only touch. Should the
-/// search exceed its fixed budget, the deepest point found until then counts: still a lower bound, so an allowance
-/// made of it is never too large. Poses place the meshes. @throws std::invalid_argument unless tolerance > 0.
+/// Depth in assembly units to which the surfaces of the two meshes penetrate each other: the largest distance from a
+/// surface point of one, inside the other, to the other's surface, both ways. Measured shell by shell, as in the
+/// verifier's law. Exact to `tolerance` (> 0) from below; 0 when they only touch. If the search exceeds its fixed
+/// budget, the result is the deepest point so far: still a lower bound, so an allowance derived from it is never too
+/// large. Poses place the meshes. @throws std::invalid_argument unless tolerance > 0.
 DISMANTLE_API double penetration_depth(const Mesh& a, const Pose& pose_a, const Mesh& b, const Pose& pose_b,
                                        double tolerance);
 /// The same with the place of the deepest point.

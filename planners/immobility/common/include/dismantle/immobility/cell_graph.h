@@ -42,7 +42,7 @@ class CellGraph {
   const CellStatus& status(std::uint32_t node) const { return nodes_[node].status; }
   bool divided(std::uint32_t node) const { return nodes_[node].divided; }
   void set_cost(std::uint32_t node, double cost) { nodes_[node].status.cost = cost; }
-  /// For when the decomposed region has grown. The order of cells that wait to be expanded does not change.
+  /// For use when the decomposed region has grown. Does not change the order of cells that wait to be expanded.
   void set_status(std::uint32_t node, const CellStatus& status) { nodes_[node].status = status; }
   bool has_start(std::uint32_t node) const { return nodes_[node].status.has_start; }
 

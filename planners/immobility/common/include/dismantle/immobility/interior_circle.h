@@ -1,4 +1,4 @@
-/// Circles within a solid, and the axes about which they are searched.
+/// Circles within a solid, and candidate axes for them.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,16 +19,16 @@ struct InteriorCircle {
 /// The point of the circle at an angle from a fixed direction; rad.
 Eigen::Vector3d point_on(const InteriorCircle& circle, double angle);
 
-/// Is all of the circle deeper in the solid than `depth` (> 0)? Proved by halving arcs: the depth of a point changes no
-/// faster than the point moves. False where arcs of a tenth of `depth` do not suffice for the proof.
+/// True if the whole circle is proved deeper in the solid than `depth` (> 0). Arcs are halved, since the depth of a
+/// point changes no faster than the point moves; false if arcs of a tenth of `depth` do not suffice.
 bool is_deep(const Solid& solid, const InteriorCircle& circle, double depth);
-/// Are 24 points of the circle? A quick test before is_deep().
+/// The same for 24 points of the circle only: a quick test before is_deep().
 bool samples_are_deep(const Solid& solid, const InteriorCircle& circle, double depth);
 
 /// Axes about which a solid may be round: its principal axes of inertia, and the normals of its largest flat faces. In
 /// its frame.
 struct SymmetryAxes {
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< of the surface
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< centroid of the surface
   std::vector<Eigen::Vector3d> all;                  ///< unit
 };
 SymmetryAxes symmetry_axes_of(const Solid& solid);

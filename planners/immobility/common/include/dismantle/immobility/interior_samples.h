@@ -1,4 +1,4 @@
-/// Sample points deep inside two parts. While no surface penetrates too deep, each stays outside the other part.
+/// Sample points deep inside two parts. While no surface penetrates too deep, each point stays outside the other part.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,8 +12,8 @@
 
 namespace dismantle::immobility {
 
-/// A point of one part that never enters a solid of the other, its obstacle: the point is deeper below the surface of
-/// its own part than the obstacle may penetrate, and the obstacle's surface would have to pass it first.
+/// A point of one part that never enters a solid of the other part, its obstacle. The point is deeper in its own part
+/// than the obstacle may penetrate, and the obstacle's surface would have to pass it first.
 struct InteriorSample {
   bool of_a = true;
   std::uint32_t obstacle = 0;                    ///< index in SampledPair
@@ -39,8 +39,8 @@ class SampledPair {
     double rounding;            ///< error of positions in its frame; assembly units
   };
 
-  /// Samples are `depth` (> 0) below the surface, or more. Neighbours are `spacing` (> 0) apart, or more where a part
-  /// is large. `a` and `b` must outlive this.
+  /// Samples are at least `depth` (> 0) below the surface, and about `spacing` (> 0) apart, or more in large parts. `a`
+  /// and `b` must outlive this.
   SampledPair(const std::vector<Solid>& a, const std::vector<Solid>& b, double depth, double spacing);
 
   const std::vector<InteriorSample>& samples() const { return samples_; }
@@ -61,21 +61,21 @@ class SampledPair {
   Vector6 scale_;
 };
 
-/// Are all surfaces closed? Only then must a sample pass through the surface to get inside.
+/// True if all surfaces are closed. Only then must a sample pass through the surface to get inside.
 bool all_closed(const std::vector<Solid>& solids);
 
 /// One pose of `a` relative to `b`.
 class RelativePose {
  public:
   RelativePose(const SampledPair& pair, const Vector6& x);
-  /// Of the sample, in the frame of its obstacle.
+  /// Position of the sample, in the frame of its obstacle.
   Eigen::Vector3d position(const InteriorSample& sample) const;
   bool inside(const InteriorSample& sample) const;
-  /// As inside(), without the test where the sample cannot have moved as far as its obstacle.
+  /// As inside(), but skips the test if the sample cannot have moved as far as its obstacle.
   bool blocked_by(const InteriorSample& sample) const {
     return sample.clearance <= max_displacement_ && inside(sample);
   }
-  /// Bound of the distance that any point of `a` has moved.
+  /// Upper bound of the displacement of any point of `a`.
   double max_displacement() const { return max_displacement_; }
 
  private:

@@ -12,7 +12,7 @@ namespace dismantle::immobility {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-/// All x between `lo` and `hi` with a[k] . x <= b[k]. N coordinates: 6, or Eigen::Dynamic.
+/// All x between `lo` and `hi` with a[k] . x <= b[k]. N is 6 or Eigen::Dynamic.
 template <int N>
 struct PolytopeIn {
   using Vector = Eigen::Matrix<double, N, 1>;
@@ -29,19 +29,19 @@ using Polytope = PolytopeIn<6>;
 
 template <int N>
 struct LinearBoundIn {
-  bool empty = false;              ///< certain: the polytope has no point
+  bool empty = false;              ///< the polytope is proved empty
   double value = 0;                ///< upper bound of the maximum; infinity if the simplex method did not converge
-  Eigen::Matrix<double, N, 1> at;  ///< about where the maximum is
+  Eigen::Matrix<double, N, 1> at;  ///< approximate maximum point
 };
 using LinearBound = LinearBoundIn<6>;
 
 /// Rows of a polytope, and multipliers >= 0 of them.
 using Multipliers = std::vector<std::pair<std::size_t, double>>;
 
-/// Of direction . x over the polytope, by the dual simplex method (Lemke 1954). The bound is computed from the dual
-/// multipliers, so that errors of the vertex do not matter (safe bounds: Neumaier and Shcherbina 2004). The value is
-/// infinite when `context`, which may be null, says to stop. Fills `multipliers`, which may be null, with those that
-/// prove the value, or that there is no point, but for what the bounds lo and hi add.
+/// Maximum of direction . x over the polytope, by the dual simplex method (Lemke 1954). The bound is computed from the
+/// dual multipliers, so errors of the vertex do not matter (safe bounds: Neumaier and Shcherbina 2004). The value is
+/// infinite when `context`, which may be null, says to stop. Fills `multipliers`, which may be null, with the
+/// multipliers that prove the value or emptiness; multipliers of the bounds lo and hi are left out.
 template <int N>
 LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const PolytopeIn<N>& polytope,
                          const RunContext* context = nullptr, Multipliers* multipliers = nullptr);

@@ -17,11 +17,11 @@ struct MedialBall {
   double radius = 0;
 };
 
-/// Balls with radii above `least` (> 0), the largest first; at most one per cell of a grid with edge `least`. When told
-/// to stop: only some of them.
+/// Balls with radii above `least` (> 0), the largest first; at most one per cell of a grid with edge `least`.
+/// Incomplete when told to stop.
 ///
-/// How: inner tangent balls shrink until they touch a second point of the surface (Ma, Bae and Choi 2012: shrinking
-/// ball algorithm); their centres then climb the distance from the surface.
+/// Inner tangent balls shrink until they touch a second point of the surface (shrinking ball algorithm: Ma, Bae and
+/// Choi 2012). Their centres then move to where the distance from the surface is larger.
 std::vector<MedialBall> medial_balls(const Solid& solid, double least, const RunContext& context);
 
 /// The medial balls of each solid of a part, in the order of solids_of(), that are larger than the query's whole

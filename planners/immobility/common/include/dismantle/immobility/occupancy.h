@@ -18,7 +18,7 @@ namespace dismantle::immobility {
 /// number of its centre. Safe to use from several threads. The surface is closed and must outlive the grid.
 class Occupancy {
  public:
-  /// `box`: of the surface. `cell`: edge of the cells, > 0; larger where the grid would have too many.
+  /// `box`: of the surface. `cell`: edge of the cells, > 0; enlarged if the grid would have too many cells.
   Occupancy(const TriangleBvh& surface, const Aabb& box, double cell);
   ~Occupancy();
   Occupancy(Occupancy&&) = default;

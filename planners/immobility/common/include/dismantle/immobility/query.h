@@ -14,7 +14,7 @@
 
 namespace dismantle::immobility {
 
-/// The closed shells of a part, computed once in an assembly. Assembled frame.
+/// The closed shells of a part, computed once per assembly. Assembled frame.
 const std::vector<Solid>& solids_of(const SeparationQuery& query, PartId part);
 
 /// The penetration depth up to which motions of the pair have to be considered: the initial overlap and the query's
@@ -25,10 +25,10 @@ double depth_allowed(const SeparationQuery& query, PartId a, PartId b);
 /// in the plane of their face, as in files in single precision. Assembly units, > 0.
 double slack_of(const SeparationQuery& query);
 
-/// Are their boxes no further apart than the tolerance? Parts further apart do not hold each other.
+/// True if their boxes are no further apart than the tolerance. Parts further apart do not hold each other.
 bool near_each_other(const SeparationQuery& query, PartId a, PartId b);
 
-/// The two parts of a query about a pair, in ascending order; nothing when there are more.
+/// The two parts of a query about a pair, in ascending order; nullopt when there are more.
 std::optional<std::pair<PartId, PartId>> pair_of(const SeparationQuery& query);
 
 /// The pair in both orders.

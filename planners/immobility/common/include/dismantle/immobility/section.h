@@ -24,11 +24,11 @@ struct Loop {
   std::vector<Eigen::Vector3d> points;   ///< in order
   std::vector<std::uint32_t> triangles;  ///< triangles[k] is cut from points[k] to the next one
 
-  /// Indices of points: the corners of the convex hull, once around. Of points on a line the two ends.
+  /// Indices of the corners of the convex hull, in order around it. For collinear points: the two ends.
   std::vector<std::size_t> hull() const;
   /// The largest distance of two points.
   double diameter() const;
-  /// Is the point, projected to the plane, inside the curve?
+  /// True if the point, projected to the plane, is inside the curve.
   bool around(const Eigen::Vector3d& p) const;
 };
 
@@ -41,14 +41,14 @@ class Surface {
   /// Offsets of planes across a direction, ascending: just above and below each corner and half way between corners,
   /// since sections change their shape only at corners. At most about `most`.
   std::vector<double> offsets(const Eigen::Vector3d& direction, std::size_t most) const;
-  /// Is there a path on the surface from one loop to the other that starts on the side of the first loop's plane to
-  /// which the normal points (`above`), or on the other side?
+  /// True if a path on the surface leads from one loop to the other. `above`: it starts on the side of the first loop's
+  /// plane to which the normal points, else on the other side.
   bool connects(const Loop& from, const Loop& to, bool above) const;
 
   /// A closed surface: connected triangles, clipped where they cross some loops, and the flat discs inside these loops.
   class Closed {
    public:
-    /// By the parity of crossings along rays; nothing when the rays do not agree.
+    /// By the parity of crossings along rays; nullopt when the rays do not agree.
     std::optional<bool> inside(const Eigen::Vector3d& p) const;
     std::size_t discs() const { return discs_.size(); }
     const std::vector<const Loop*>& loops() const { return discs_; }
@@ -64,7 +64,7 @@ class Surface {
     double rounding_ = 0;  ///< error of positions; assembly units
   };
   /// The piece of surface that is connected to loops[0] on the side of its plane where `p` lies, up to the loops,
-  /// closed by their discs. Nothing when it reaches the other side of a loop. `loops` must outlive it.
+  /// closed by their discs. Returns nullopt when it reaches the other side of a loop. `loops` must outlive it.
   std::optional<Closed> closed_by(const std::vector<Loop>& loops, const Eigen::Vector3d& p) const;
 
  private:
