@@ -1,4 +1,4 @@
-/// Takes an assembly apart by what blocks what; searches only where no straight motion exists.
+/// Disassembles by blocking graphs, the cheapest strategy first; path searches are the last resort.
 #pragma once
 
 #include "blocking/params.h"

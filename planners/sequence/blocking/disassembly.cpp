@@ -33,7 +33,7 @@ Disassembly::Disassembly(const BlockingParams& params, const Assembly& assembly,
   make_strategies();
 }
 
-/// What costs least and proves most comes first.
+/// The cheapest and most conclusive strategies come first.
 void Disassembly::make_strategies() {
   if (straight_) {
     list_.add(std::make_unique<TargetFirst>(state_, *straight_));

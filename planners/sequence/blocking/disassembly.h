@@ -1,4 +1,4 @@
-/// One run of the `blocking` planner: the state, what the strategies share, and the list of strategies.
+/// One run of the `blocking` planner: the state, the objects that the strategies share, and the list of strategies.
 #pragma once
 
 #include <memory>

@@ -12,8 +12,8 @@ bool Lookahead::is_active() const { return state_.context().threads > 1; }
 /// Four attempts per thread keep all threads busy until the next hint; results do not depend on the number.
 std::size_t Lookahead::most() const { return 4 * state_.context().threads; }
 
-/// What other groups wait for does not depend on the outcome of `now`. What follows in this group does: the likelier
-/// case comes first.
+/// The next searches of other groups do not depend on the outcome of `now`, those of this group do. The searches after
+/// the likelier outcome come first.
 void Lookahead::before_search(const GroupState& group, const Attempt& now, const Subassemblies& next) const {
   if (!is_active()) return;
   Attempts ahead{now};
@@ -46,14 +46,14 @@ void Lookahead::before_attempts(const Attempt& now, Attempts next) const {
   oracle_.prefetch(next, state_.context());
 }
 
-/// Little is found to depth 1, or where a search went as deep before.
+/// A search to depth 1, or no deeper than the last one for the part, rarely succeeds.
 bool Lookahead::is_likely_to_leave(const GroupState& group, const Attempt& now) const {
   if (group.members.size() < 3 || now.max_depth < 2) return false;
   const PastSearch* search = history_.last(state_.subassembly_of(now.moving.front().part));
   return search == nullptr || search->depth < now.max_depth;
 }
 
-/// Those that follow in its round, and in the next one.
+/// The searches that follow if `now` fails: in this round, and in the next one.
 Lookahead::Attempts Lookahead::after_failure_of(const GroupState& group, const Attempt& now,
                                                 const Subassemblies& next) const {
   Attempts ahead;
@@ -66,7 +66,7 @@ Lookahead::Attempts Lookahead::after_failure_of(const GroupState& group, const A
   return ahead;
 }
 
-/// What is left to search of its round, without the part that is searched now, and of the next round.
+/// The searches that follow if `now` succeeds: in this round without the removed part, and in the next one.
 Lookahead::Attempts Lookahead::after_success_of(const GroupState& group, const Attempt& now) const {
   Attempts ahead;
   if (group.members.size() < 3 || group.searches_exhausted || now.max_depth != group.search_depth) return ahead;
@@ -100,14 +100,14 @@ void Lookahead::add_next_round(const GroupState& group, Attempts& attempts) cons
   add_waiting(group, group.search_depth + 1, again, attempts);
 }
 
-/// No more than idle threads may come to.
+/// Adds at most most() attempts: idle threads get no further.
 void Lookahead::add_searches(const GroupState& group, unsigned depth, const Subassemblies& ids,
                              Attempts& attempts) const {
   for (std::size_t k = 0; k < std::min(ids.size(), most()); ++k)
     attempts.push_back(history_.attempt_for(group, ids[k], depth));
 }
 
-/// The next searches of the groups that wait.
+/// Adds the next searches of the waiting groups.
 void Lookahead::add_other_groups(Attempts& attempts) const {
   for (const GroupState& g : state_.waiting())
     if (g.is_pair() && g.searches_exhausted && !g.pair_finished)

@@ -1,4 +1,4 @@
-/// Tells idle threads what will probably be asked next. No result depends on it.
+/// Hints for idle threads: the attempts that will probably be asked for next. No result depends on these hints.
 #pragma once
 
 #include <vector>
@@ -12,11 +12,11 @@ class Lookahead {
   /// All must outlive this.
   Lookahead(const DisassemblyState& state, const SearchHistory& history, PathOracle& oracle);
 
-  /// `now` is asked next. `next`: those whose searches follow in the same round, if it finds nothing.
+  /// Call before `now` is asked. `next`: the searches that follow in the same round if `now` finds no path.
   void before_search(const GroupState& group, const Attempt& now, const Subassemblies& next) const;
-  /// `now` was successful: attempts that were hinted for the other case are of no more use.
+  /// Call after `now` has succeeded: replaces the hints for its failure.
   void after_success(const GroupState& group, const Attempt& now) const;
-  /// `now`, and then probably the first of `next`.
+  /// Hints that `now` is asked next, and then probably `next` in order.
   void before_attempts(const Attempt& now, std::vector<Attempt> next) const;
   bool other_pairs_wait() const;
 

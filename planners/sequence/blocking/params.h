@@ -1,5 +1,5 @@
-/// Parameters of the planner, each declared by the strategy that uses it. Those whose doc begins with "Advanced" change
-/// which plan is found and need no tuning as a rule.
+/// Parameters of the planner, each declared by the strategy that uses it. Parameters whose doc begins with "Advanced"
+/// affect which plan is found, but rarely need tuning.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct BlockingParams;
 
 namespace blocking {
 
-/// Straight removals: free_part, target_first, and what the strategies that need pairwise relations are built on.
+/// Straight removals: free_part, target_first, and the pairwise relations that other strategies use.
 struct StraightParams {
   bool straight = true;
   static void describe(Schema<BlockingParams>& schema);

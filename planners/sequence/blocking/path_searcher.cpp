@@ -17,7 +17,7 @@ Subassemblies PathSearcher::candidates(const GroupState& group) {
   return single;
 }
 
-/// The use of one is the sum of its shares in the smallest sets that block others.
+/// The use of a part is the sum of its shares in the smallest sets that block others.
 void PathSearcher::sort_by_use(const GroupState& group, Subassemblies& ids) {
   if (straight_ == nullptr) return;
   std::map<SubassemblyId, double> use;

@@ -1,4 +1,4 @@
-/// Searches for the paths of single parts by the path planner, one after the other, until one leaves.
+/// Calls the path planner for single parts, one after the other, until a part leaves.
 #pragma once
 
 #include "blocking/lookahead.h"
@@ -12,10 +12,10 @@ class PathSearcher {
   PathSearcher(DisassemblyState& state, SearchHistory& history, const Lookahead& lookahead, PathOracle& oracle,
                StraightMotion* straight);
 
-  /// Single parts that may leave. Those whose removal would free others come first, the housing last: searches are
-  /// expensive, and a success makes many of them needless.
+  /// Single parts that may leave. Parts whose removal would free others come first, because such a success saves many
+  /// expensive searches. The housing comes last.
   Subassemblies candidates(const GroupState& group);
-  /// Until one of `ids` leaves; true then.
+  /// Searches for a path of each of `ids` in order, until one leaves. True: one has left.
   bool search_each(GroupState& group, const Subassemblies& ids, unsigned depth);
 
  private:

@@ -20,8 +20,8 @@ using Vec3 = Eigen::Vector3d;
 using Limits = std::numeric_limits<double>;
 using geometry::kRounding;
 
-/// Neighbours and edges closer than this continue each other. Nearly flat surfaces stay apart: their facets would add
-/// up.
+/// Are two unit vectors equal up to rounding? Such faces are merged and such edges joined. The limit is this strict
+/// because the bends of a nearly flat surface would add up.
 bool continues(const Vec3& a, const Vec3& b) { return a.dot(b) > 1 - kRounding; }
 
 struct Adjacent {
@@ -46,7 +46,7 @@ Vec3 inward(const std::vector<Vec3>& normals, double inset) {
 
 double cross2(double ax, double ay, double bx, double by) { return ax * by - ay * bx; }
 
-/// Is p, a point of the face's plane, in the face or no further than `tolerance` from its boundary?
+/// Is `p`, a point in the plane of the face, inside the face or within `tolerance` of its boundary?
 bool in_face(const Polyhedron& body, const Polyhedron::Face& face, const Vec3& p, double tolerance) {
   int axis = 0;
   face.normal.cwiseAbs().maxCoeff(&axis);
@@ -62,7 +62,7 @@ bool in_face(const Polyhedron& body, const Polyhedron::Face& face, const Vec3& p
   return inside;
 }
 
-/// First time at which a corner, going along d, meets a face of `target` from outside.
+/// Lowers `best` to the first distance along d at which a corner meets a face of `target` from outside.
 void corners_to_faces(const std::vector<Vec3>& corners, const Vec3& offset, const Vec3& d, const Polyhedron& target,
                       double tolerance, double& best) {
   for (const auto& face : target.faces()) {
@@ -79,7 +79,7 @@ void corners_to_faces(const std::vector<Vec3>& corners, const Vec3& offset, cons
 
 void edges_to_edges(const Polyhedron& a, const Polyhedron& b, const Vec3& offset, const Vec3& d, double tolerance,
                     double& best) {
-  // Seen along d, the edges cross in two dimensions; the depths there tell when.
+  // Two edges meet where their projections along d cross. Their depths at the crossing give the distance until then.
   const Vec3 u = d.unitOrthogonal(), v = d.cross(u);
   struct Flat {
     double x, y, z, dx, dy, dz, length;
@@ -104,7 +104,7 @@ void edges_to_edges(const Polyhedron& a, const Polyhedron& b, const Vec3& offset
           std::max(f.y, f.y + f.dy) < ey0)
         continue;
       const double det = cross2(e.dx, e.dy, f.dx, f.dy);
-      if (std::abs(det) < kRounding * e.length * f.length) continue;  // parallel: corners and faces see them
+      if (std::abs(det) < kRounding * e.length * f.length) continue;  // parallel: corners_to_faces() covers these
       const double s = cross2(f.x - e.x, f.y - e.y, f.dx, f.dy) / det;
       const double q = cross2(f.x - e.x, f.y - e.y, e.dx, e.dy) / det;
       if (s < -tolerance / e.length || s > 1 + tolerance / e.length || q < -tolerance / f.length ||
@@ -139,7 +139,7 @@ Polyhedron::Polyhedron(const Mesh& mesh, double inset) {
       parent[root_of(parent, t)] = root_of(parent, n);
     }
 
-  // Corners, moved inwards by the planes that meet there.
+  // Move each corner inwards with the planes that meet there.
   std::vector<std::vector<Vec3>> planes(mesh.vertices.size());
   for (std::uint32_t t = 0; t < count; ++t)
     for (const std::uint32_t v : mesh.triangles[t])
@@ -149,7 +149,7 @@ Polyhedron::Polyhedron(const Mesh& mesh, double inset) {
   for (std::size_t v = 0; v < moved.size(); ++v)
     if (!planes[v].empty()) moved[v] += inward(planes[v], inset);
 
-  // Edges between faces. Those of two faces on one line that meet end to end are one.
+  // Edges between faces. Collinear edges of the same two faces that meet end to end are merged.
   struct Piece {
     std::uint32_t from, to;
   };
@@ -202,7 +202,7 @@ Polyhedron::Polyhedron(const Mesh& mesh, double inset) {
 
 double distance_until_contact(const Polyhedron& a, const Polyhedron& b, const Vec3& offset, const Vec3& d,
                               double tolerance) {
-  // By boxes first, across each axis that the way has no part in.
+  // Boxes first: the bodies never meet if the boxes are apart across d, or if `a` is already past `b`.
   double past = Limits::infinity();
   for (int k = 0; k < 3; ++k) {
     const double lo = a.box().lo[k] + offset[k], hi = a.box().hi[k] + offset[k];

@@ -1,4 +1,4 @@
-/// How far one polyhedron can be moved in a straight line until it meets another: exact, by its faces and edges.
+/// Exact distance that a polyhedron can be translated until it meets another, from faces and edges.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,11 +9,11 @@
 
 namespace dismantle::blocking {
 
-/// A closed mesh as flat faces with straight edges between them; triangles of one plane are one face. All surfaces are
-/// moved inwards a little, so that parts which touch when assembled are apart: contact is not collision.
+/// A closed mesh as flat faces with straight edges between them. Adjacent coplanar triangles form one face. All
+/// surfaces are moved inwards a little, so that parts which touch when assembled do not collide.
 class Polyhedron {
  public:
-  /// `inset`: how far inwards, assembly units.
+  /// `inset`: distance by which surfaces are moved inwards, assembly units.
   Polyhedron(const Mesh& mesh, double inset);
 
   struct Edge {
@@ -22,7 +22,7 @@ class Polyhedron {
   struct Face {
     Eigen::Vector3d normal;
     double offset = 0;               ///< normal . x on the face
-    std::vector<std::size_t> edges;  ///< its boundary
+    std::vector<std::size_t> edges;  ///< indices of the boundary edges
   };
 
   const std::vector<Eigen::Vector3d>& corners() const { return corners_; }
@@ -37,8 +37,8 @@ class Polyhedron {
   Aabb box_;
 };
 
-/// Length of the way along unit vector `d` after which `a`, translated by `offset` at first, meets `b`; infinite when
-/// it never does. `tolerance`, below the insets: what passes so close counts as meeting. The two are apart at first.
+/// Distance along unit vector `d` after which `a`, which starts translated by `offset`, meets `b`; infinite if it never
+/// does. Passing within `tolerance` (less than the insets) counts as meeting. `a` and `b` must be apart at the start.
 double distance_until_contact(const Polyhedron& a, const Polyhedron& b, const Eigen::Vector3d& offset,
                               const Eigen::Vector3d& d, double tolerance);
 

@@ -18,9 +18,9 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// Share of the surface that rotation about the axis moves within itself.
+/// Share of the surface that slides on itself when it rotates about the axis.
 double share_round(const Mesh& mesh, const Vec3& point, const Vec3& axis, const RoundSurface& round_surface) {
-  // The centroid of a facet is off its middle by up to a third of its half.
+  // A triangle's centroid is off the middle of its facet by up to a third of half the facet's angle.
   const double off = std::sin(std::numbers::pi / (3 * round_surface.facets));
   double total = 0, round = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -34,7 +34,7 @@ double share_round(const Mesh& mesh, const Vec3& point, const Vec3& axis, const 
   return total > 0 ? round / total : 1;
 }
 
-/// Triangles of one plane that hang together.
+/// Connected coplanar triangles.
 struct Facet {
   Vec3 normal = Vec3::Zero();
   double area = 0;
@@ -43,11 +43,11 @@ struct Facet {
 
 struct Facets {
   std::vector<Facet> all;
-  std::vector<std::pair<std::size_t, std::size_t>> neighbours;  // that bend like round surfaces do
+  std::vector<std::pair<std::size_t, std::size_t>> neighbours;  // pairs with a bend as in round surfaces
 };
 
 Facets facets_of(const Mesh& mesh, const RoundSurface& round_surface) {
-  const double most_bend = std::cos(2 * std::numbers::pi / round_surface.facets);  // more is an edge
+  const double most_bend = std::cos(2 * std::numbers::pi / round_surface.facets);  // a larger bend is an edge
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> by_edge;
   std::vector<Vec3> twice(count);
@@ -93,7 +93,7 @@ std::vector<RotationAxis> rotation_axes(const Mesh& mesh, std::size_t most, cons
   for (const Facet& f : facets.all) total += f.area;
   std::vector<RotationAxis> found;
   for (const Vec3& d : axes_of(mesh, most)) {
-    const auto middle = [&](const Facet& f) {  // of the chord as which the facet is seen along d
+    const auto middle = [&](const Facet& f) {  // midpoint of the facet's projection along d, a chord
       const Vec3 along = d.cross(f.normal);
       double lo = std::numeric_limits<double>::infinity(), hi = -lo;
       for (const std::uint32_t v : f.corners) {
@@ -107,7 +107,7 @@ std::vector<RotationAxis> rotation_axes(const Mesh& mesh, std::size_t most, cons
       const Facet &a = facets.all[i], &b = facets.all[j];
       if (std::abs(a.normal.dot(d)) > across || std::abs(b.normal.dot(d)) > across) continue;
       const Vec3 p = middle(a), q = middle(b);
-      // p - s * a.normal is on the line that halves the other chord, too.
+      // The axis is at the p - s * a.normal that is also on the bisector of the other chord.
       const Vec3 along = d.cross(b.normal);
       const double rate = a.normal.dot(along);
       if (std::abs(rate) < 1e-3) continue;

@@ -50,8 +50,8 @@ unsigned SearchHistory::next_depth_of_pair(const GroupState& group, bool others_
   return others_wait && group.pair_depth < params_.pair_depth ? 2 * group.pair_depth : 0;
 }
 
-/// Simulated steps and state checks take the longer the more triangles the part has. Counts, not seconds: these are the
-/// same on every machine.
+/// Simulated steps and state checks take longer for parts with more triangles. Counts are used instead of seconds
+/// because they are the same on every machine.
 int SearchHistory::cost_of(PartId part, const PathResult& result) const {
   return static_cast<int>(std::log2(std::max(1.0, work_of({part}, result))) / params_.cost_octaves);
 }
@@ -86,7 +86,7 @@ Subassemblies SearchHistory::waiting_of(const Subassemblies& ids) const {
   return waiting;
 }
 
-/// Where parts that stay were moved, what was known of the group does not hold any more.
+/// Results for a group are not valid any more when parts that stay in it have moved.
 void SearchHistory::on_group_changed(GroupState& group, const GroupChange& change) {
   if (!change.moves_remaining()) return;
   for (const SubassemblyId s : group.members)

@@ -35,7 +35,7 @@ struct PlacesHash {
 
 }  // namespace
 
-/// Parts are thinner by the inset: half of it is left between them where they stop, and what passes closer meets.
+/// Parts are thinner by the inset. Half of it remains between parts where they stop; passing closer counts as contact.
 double TranslationSearch::gap() const { return 0.5 * params_.translation_inset * tolerance_; }
 
 /// Places that differ by less than the gap are the same.
@@ -60,12 +60,12 @@ TranslationSearch::TranslationSearch(const Assembly& assembly, double tolerance,
 
 const TranslationSearch::Shape& TranslationSearch::shape(PartId part) { return shapes_.at(part); }
 
-/// True for a body that consists of flat faces, so that comparing edges is worth while.
+/// Does the body have few enough edges to compare all pairs of them?
 bool TranslationSearch::is_simple(const Polyhedron& body) const {
   return body.edges().size() <= params_.translation_edges;
 }
 
-/// Shapes and directions for a group. False when it is not for this search.
+/// Computes shapes and directions for a group. False: the search is not suited to it.
 bool TranslationSearch::prepare(const Places& places) {
   if (places.size() > std::numeric_limits<Set>::digits) return false;
   for (const auto& [part, at] : places) {
@@ -80,7 +80,7 @@ bool TranslationSearch::prepare(const Places& places) {
     if (!is_simple(entry->second.body)) return false;
   }
   if (directions_.empty()) {
-    // Axes along which much of the surface of the parts looks, of all parts of the assembly: indices stay the same.
+    // The most important axes of all parts of the assembly, not only of this group, so that indices stay valid.
     std::vector<std::pair<Vec3, double>> axes;
     for (const auto& part : assembly_.parts) {
       double weight = 1;
@@ -150,7 +150,7 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
   if (!prepare(places)) return {};
   work_ = 0;
   most_work_ = most_work;
-  // Places on contact multiply the states, and most puzzles do without.
+  // Stops at contact multiply the number of states, and most puzzles do not need them.
   const Answer flush = search(places, most_states, false, context);
   if (flush.end != End::exhausted) return flush;
   Answer both = search(places, most_states, true, context);
@@ -189,7 +189,7 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
       answer.translations.push_back({parts_of(step.moved), directions_[step.direction], step.length});
     }
     std::reverse(answer.translations.begin(), answer.translations.end());
-    // Slides of the same parts along the same direction are one.
+    // Merge consecutive translations of the same parts along the same direction.
     for (std::size_t k = 0; k + 1 < answer.translations.size();) {
       Translation &a = answer.translations[k], &b = answer.translations[k + 1];
       if (a.parts == b.parts && a.direction == b.direction) {
@@ -222,7 +222,7 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
         for (std::size_t j = 0; j < n; ++j)
           free[i * n + j] =
               i == j ? std::numeric_limits<double>::infinity() : free_distance(id[i], id[j], at[i] - at[j], d);
-      /// All that moves when part i does, by `length`: parts that it runs into are taken along.
+      /// All parts that move when part i moves by `length`: each part takes along the parts that it runs into.
       const auto taken_along = [&](std::size_t i, double length) {
         Set set = Set{1} << i;
         std::vector<std::size_t> open{i};
@@ -249,7 +249,7 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
       }
       std::set<std::pair<Set, std::int64_t>> tried;
       for (std::size_t i = 0; i < n; ++i) {
-        // The next place where a face of part i is flush with one of another part that looks the same length.
+        // Distance to the next place where a face of part i is flush with another part's face of equal normal.
         double next = std::numeric_limits<double>::infinity(), meets = std::numeric_limits<double>::infinity();
         for (std::size_t j = 0; j < n; ++j) {
           if (j == i) continue;

@@ -1,5 +1,5 @@
-/// Search over the arrangements of all parts of a group: translations of one part, or of as many as it takes along,
-/// until some part or group is free. For burrs and sliding puzzles, where no part is free as assembled.
+/// Search over the arrangements of all parts of a group. One part at a time is translated, with the parts that it takes
+/// along, until a part or group is free. For burrs and sliding puzzles, where no part is free when assembled.
 #pragma once
 
 #include <cstdint>
@@ -18,21 +18,21 @@
 
 namespace dismantle::blocking {
 
-/// Parts move along a direction together, by the same length.
+/// A translation of several parts along one direction by the same length.
 struct Translation {
   std::vector<PartId> parts;  ///< ascending
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
-  double length = 0;  ///< assembly units; infinite: they leave
+  double length = 0;  ///< assembly units; infinite: the parts leave
 };
 
-/// The places of parts are translations of the assembled ones.
+/// The place of each part, as a translation from its assembled position.
 using Places = std::map<PartId, Eigen::Vector3d>;
 
-/// A state is one translation per part. From it, any part may move along any direction that faces of the parts suggest,
-/// to the next place where a face of it is flush with one of another part, or (when that is not enough) where it meets
-/// one; parts that it would run into are taken along. Where faces are flush openings are open, and translations that
-/// stop nowhere else are sums of such ones. Breadth first, so with the fewest such steps. Shapes are those of the
-/// parts, thinner by a share of the tolerance; the verifier has to confirm what is found.
+/// A state is one translation per part. From a state, any part may move along any direction that the faces of the parts
+/// suggest, to the next place where one of its faces is flush with a face of another part, or (if that does not
+/// suffice) where it meets another part. Parts that it would run into are taken along. Openings are passable where
+/// faces are flush, and other translations are sums of such steps. Breadth first finds the fewest steps. The shapes are
+/// the parts, thinner by a share of the tolerance, so the verifier has to confirm every result.
 class TranslationSearch {
  public:
   /// `tolerance`: of the verifier, assembly units. All references must outlive this.
@@ -44,17 +44,17 @@ class TranslationSearch {
     std::vector<Translation> translations;  ///< the last has infinite length
     std::size_t states = 0;
   };
-  /// Up to `most_states`, and (too_long) as long as the lengths that had to be measured for it took no more than
-  /// `most_work` pairs of edges. What was measured stays known, so asking again with more work resumes. Unsuited: some
-  /// shapes are not made of flat faces, or overlap.
+  /// Visits up to `most_states` states (else `limit`) and compares up to `most_work` pairs of edges (else `too_long`).
+  /// Measured lengths are cached, so a later search with more work resumes. `unsuited`: more than 64 parts, or a part
+  /// with more than `translation_edges` edges.
   Answer search(const Places& places, std::size_t most_states, double most_work, const RunContext& context);
-  /// From now on `moving` at these places cannot go along that direction past `fixed`: the verifier refused it.
+  /// Records that the verifier refused to let `moving`, at `offset` from `fixed`, pass `fixed` along `direction`.
   void forbid(PartId moving, PartId fixed, const Eigen::Vector3d& offset, const Eigen::Vector3d& direction);
 
  private:
   struct Shape {
     Polyhedron body;
-    std::vector<std::vector<double>> planes;  ///< by direction: offsets of the faces that look along it, ascending
+    std::vector<std::vector<double>> planes;  ///< by direction: offsets of the faces with this normal, ascending
   };
   Answer search(const Places& places, std::size_t most_states, bool to_contact, const RunContext& context);
   double gap() const;
@@ -81,7 +81,7 @@ class TranslationSearch {
   std::map<PartId, Shape> shapes_;
   std::vector<Eigen::Vector3d> directions_;  ///< in opposite pairs
   std::unordered_map<Key, double, Hash> free_;
-  double work_ = 0, most_work_ = 0;  ///< of the search in hand
+  double work_ = 0, most_work_ = 0;  ///< of the current search
 };
 
 }  // namespace dismantle::blocking

@@ -13,10 +13,10 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 using geometry::FaceAxis;
 
-// Cosine between axes that are one: 0.08 degrees. A straight path that is off by more rubs at a long fit.
+// Axes within 0.08 degrees (cosine) are the same axis. A straight path that deviates more rubs at a long fit.
 constexpr double kSame = 1 - 1e-6;
 
-/// The same axis with its first coefficient positive that is not zero up to rounding.
+/// The same axis with the sign that makes the first nonzero coefficient (up to rounding) positive.
 Vec3 with_sign(const Vec3& v) {
   for (int k = 0; k < 3; ++k)
     if (std::abs(v[k]) > 1e-9) return v[k] < 0 ? Vec3(-v) : v;

@@ -14,16 +14,16 @@ namespace dismantle::blocking {
 struct Directions {
   std::vector<Eigen::Vector3d> all;
   std::vector<std::vector<std::size_t>> of_part;  ///< by part id: its candidates, ascending
-  std::vector<std::size_t> common;                ///< those with the most surface, the most first; both signs
+  std::vector<std::size_t> common;                ///< those with the most surface area, largest first; both signs
 
   static std::size_t opposite(std::size_t d) { return d ^ 1U; }
 };
 
-/// Axes of `mesh`, of either sign, the one with the most surface first: at most `most` normals of its flat faces, and
-/// the axis to which its surface is most parallel (that of a pin or a sleeve).
+/// Axes of `mesh`, of arbitrary sign, largest surface area first: at most `most` normals of flat faces, and the axis to
+/// which the surface is most parallel (the axis of a pin or a sleeve).
 std::vector<Eigen::Vector3d> axes_of(const Mesh& mesh, std::size_t most);
 
-/// For each part its own axes, the coordinate axes, and the axes with the most surface of all parts.
+/// For each part its own axes, the coordinate axes, and the axes with the most surface area of all parts.
 Directions directions_of(const Assembly& assembly);
 
 }  // namespace dismantle::blocking

@@ -1,4 +1,4 @@
-/// Numbers for rotations, so that results for rotated parts can be kept by key.
+/// Numbers rotations, so that results for rotated parts can be cached by key.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -23,8 +23,8 @@ class PairSweep {
   /// Does `moving` pass `fixed` along `path` (>= 2 poses, joined by screw motions)? False: it does not, or the budget
   /// did not suffice for a proof.
   bool passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& path) const;
-  /// Distance along the unit vector `direction` after which the convex hulls of both groups are apart, to a 4096th of
-  /// `most`, after which they are assumed to be.
+  /// Distance along the unit vector `direction` after which the convex hulls of both groups are apart. Resolution: a
+  /// 4096th of `most`, the distance after which they are assumed to be apart.
   double distance_apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest,
                         const Eigen::Vector3d& direction, double most) const;
   /// Corners of the convex hull of a part, in its assembled frame.

@@ -59,8 +59,8 @@ std::pair<double, double> Relations::extent(PartId part, std::size_t direction, 
   return {s.lo[0], s.hi[0]};
 }
 
-/// "i along d past j" and "j along -d past i" are one question. A sweep with a budget, and rounded offsets, could give
-/// two answers, so only one form of the question is ever computed.
+/// "i along d past j" and "j along -d past i" are one question. Budgets and rounded offsets could make their answers
+/// differ, so only one form of the question is ever computed.
 Pair Relations::canonical(Pair p) const {
   if (p.moving > p.fixed) {
     std::swap(p.moving, p.fixed);
@@ -113,7 +113,7 @@ Relations::Ahead::Request Relations::request(const Pair& pair) const {
   const Pair p = canonical(pair);
   const Pose begin{p.offset, orientations_[p.orientation_moving]};
   Pose end = begin;
-  // A tenth of the tolerance further than past, so that the check is not about parts that just touch at the end.
+  // Ends a tenth of the tolerance past the fixed part, so that the two do not just touch at the end.
   end.t += (distance_past(p) + 0.1 * sweep_.tolerance()) * directions_.all[p.direction];
   const Pose fixed_at{Vec3::Zero(), orientations_[p.orientation_fixed]};
   return {key_of(pair), [this, p, fixed_at, path = std::vector<Pose>{begin, end}](const RunContext&) {

@@ -18,7 +18,7 @@
 
 namespace dismantle::blocking {
 
-/// Two parts at their poses, and the direction of one of them.
+/// Two parts at their poses, and the direction along which one of them moves.
 struct Pair {
   PartId moving = 0, fixed = 0;
   std::size_t direction = 0;
@@ -29,8 +29,8 @@ struct Pair {
 /// A pair, its relative pose, and a direction; see Relations.
 using RelationKey = std::tuple<PartId, PartId, std::size_t, long, long, long, std::size_t, std::size_t>;
 
-/// A relation that does not block is a valid straight path past one part, up to the test of convex hulls at its end.
-/// Not safe to call from several threads; idle threads of an executor, if given, compute likely relations ahead.
+/// A relation that does not block is a valid straight path past one part, except for the test of convex hulls at its
+/// end. Not thread-safe. Idle threads of an executor, if given, compute likely relations speculatively.
 class Relations {
  public:
   /// All references must outlive this; `executor` may be null.
@@ -40,19 +40,19 @@ class Relations {
   bool blocks(const Pair& pair);
   /// Computes blocks() of many pairs, in parallel.
   void compute(std::span<const Pair> pairs);
-  /// Was it asked for before, or is it far()? Answers that were only computed ahead do not count, so that results do
-  /// not depend on the number of threads.
+  /// Was the relation asked for before, or is the pair far()? Speculative answers do not count, so that results do not
+  /// depend on the number of threads.
   bool known(const Pair& pair) const;
   /// Is it known, and does it block?
   bool known_to_block(const Pair& pair) const;
-  /// Are there threads that compute ahead?
+  /// Are there threads for speculative computation?
   bool works_ahead() const { return blocks_ahead_.computes_ahead(); }
   /// Do these threads have little left to do? Eight questions keep a few threads busy until the next hint.
   bool wants_hints() const { return works_ahead() && blocks_ahead_.waiting() < 8; }
-  /// Names pairs that will probably be asked for: each list in that order, until a pair is blocked. Replaces the last
+  /// Names pairs that will probably be asked for: each list in order, until a pair of it blocks. Replaces the last
   /// hint.
   void hint(const std::vector<std::vector<Pair>>& lists);
-  /// Proved by boxes alone that the part does not touch the other one.
+  /// Do boxes alone prove that `moving` does not touch `fixed`?
   bool far(const Pair& pair) const;
   /// Distance along the direction after which `moving` is past `fixed`.
   double distance_past(const Pair& pair) const;
@@ -75,7 +75,7 @@ class Relations {
 
   const Directions& directions_;
   const PairSweep& sweep_;
-  double grid_;  // offsets are rounded to multiples of it: far below the tolerance, and above rounding of poses
+  double grid_;  // offsets are rounded to multiples of this: far below the tolerance, above rounding errors
   std::vector<Eigen::Matrix3d> frames_;               // by direction: rows are the direction and two across it
   mutable std::vector<std::vector<Shadow>> shadows_;  // by direction, by part; filled when first asked for
   const Orientations& orientations_;

@@ -13,7 +13,7 @@ class Report {
  public:
   /// Both must outlive this.
   Report(DisassemblyState& state, PathOracle& oracle) : state_(state), oracle_(oracle) {}
-  /// Reports the parts of a group that was given up. `notes`: of the strategies; added to the message of each part.
+  /// Reports the parts of a group that was given up. `notes` of the strategies are added to the message of each part.
   void add_left(const GroupState& group, const std::string& notes);
   /// Reports every part that is proved inseparable from another, with the proof.
   void add_inseparable();

@@ -10,7 +10,7 @@ const auto none = std::numeric_limits<SubassemblyId>::max();
 
 bool holds(const Subassemblies& ids, SubassemblyId id) { return std::find(ids.begin(), ids.end(), id) != ids.end(); }
 
-/// By part: a part that stands for the set that constraints keep together; lists that share a part are one set.
+/// By part: the representative of the set that constraints keep together. Lists that share a part form one set.
 std::vector<PartId> sets_kept_together(const Assembly& assembly, const Constraints& constraints) {
   std::vector<PartId> set(assembly.parts.size());
   std::iota(set.begin(), set.end(), PartId{0});
@@ -44,7 +44,7 @@ DisassemblyState::DisassemblyState(const Assembly& assembly, const Constraints& 
     const PartId from = merged[a], to = merged[b];
     std::replace(merged.begin(), merged.end(), from, to);
   }
-  // The last of its parts in the order says when a subassembly is tried.
+  // A subassembly is tried when the last of its parts in this order would be.
   const std::vector<PartId> by_order = ordered_parts(assembly, order);
   Subassemblies of_root(assembly.parts.size(), none);
   for (auto id = by_order.rbegin(); id != by_order.rend(); ++id) {
@@ -56,7 +56,7 @@ DisassemblyState::DisassemblyState(const Assembly& assembly, const Constraints& 
     parts_[subassembly].push_back(*id);
   }
   std::reverse(parts_.begin(), parts_.end());
-  // Others leave the inseparable ones, not these them.
+  // Inseparable subassemblies come last, so that the others are removed from them.
   std::stable_partition(parts_.begin(), parts_.end(), [&](const auto& parts) {
     return std::none_of(parts.begin(), parts.end(), [&](PartId id) { return inseparable_[id]; });
   });

@@ -146,7 +146,6 @@ class DisassemblyState {
   const std::map<std::string, double>& counts() const { return counts_; }
   const std::vector<Removal>& removals() const { return removals_; }
   /// The last known failure of a part, for the report.
-
   void set_failure(Unsolved failure) { failures_[failure.part] = std::move(failure); }
   const Unsolved* failure_of(PartId part) const;
 

@@ -9,7 +9,7 @@ namespace dismantle::blocking {
 namespace {
 
 constexpr std::size_t kWave = 4;    // directions of one part that are examined together, the shortest path first
-constexpr std::size_t kHints = 12;  // directions in one hint to the threads that compute ahead; never changes a plan
+constexpr std::size_t kHints = 12;  // directions in one hint to idle threads; never changes a plan
 
 }  // namespace
 
@@ -111,7 +111,7 @@ bool StraightMotion::was_refused(const Subassemblies& ids, std::size_t direction
   return refused_.contains({state_.parts_of(ids), direction});
 }
 
-/// Every subassembly of a group asks for its directions: looking at all others each time would cost the square.
+/// Cached, because every subassembly asks for its directions: visiting all others each time would be quadratic.
 const StraightMotion::FarEnd& StraightMotion::far_end(const GroupState& group, std::size_t direction) const {
   if (far_ends_.arrangement != state_.arrangement() || far_ends_.members != group.members)
     far_ends_ = {state_.arrangement(), group.members, {}};
@@ -137,7 +137,7 @@ const StraightMotion::FarEnd& StraightMotion::far_end(const GroupState& group, s
   return far;
 }
 
-/// What has left was rarely at an end: the ends of the rest stay what they were.
+/// A removed subassembly was rarely a far end, so most far ends stay valid.
 void StraightMotion::keep_far_ends(const GroupChange& change) {
   const std::size_t moved = state_.parts_of(change.moved).size();
   if (change.kind != GroupChange::Kind::removed || far_ends_.arrangement + moved != state_.arrangement()) return;
@@ -204,7 +204,7 @@ std::vector<Pair> StraightMotion::open_pairs(const GroupState& group, Subassembl
   return pairs;
 }
 
-/// A subassembly that is known to block; if there is none, the pairs that are not known.
+/// A subassembly that is known to block; if there is none, the pairs whose relation is not known.
 std::pair<std::optional<SubassemblyId>, std::vector<Pair>> StraightMotion::examine(const GroupState& group,
                                                                                    SubassemblyId unit,
                                                                                    std::size_t direction) const {
@@ -312,7 +312,7 @@ std::optional<std::size_t> StraightMotion::free_direction(const GroupState& grou
   if (state_.stop()) return std::nullopt;
   for (const std::size_t d : directions_of(group, unit)) {
     if (blocker_[unit].contains(d) || was_refused({unit}, d)) continue;
-    // Undecided directions remain where an earlier wave had a free one that the verifier then refused.
+    // Directions stay undecided if an earlier wave had a free one, which the verifier then refused.
     if (!open_pairs(group, unit, d).empty()) continue;
     if (!blocker_[unit].contains(d)) return d;
   }

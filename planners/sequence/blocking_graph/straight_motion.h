@@ -17,9 +17,9 @@
 
 namespace dismantle::blocking {
 
-/// For each blocked direction one blocker is remembered, and the direction is not examined again while that is in the
-/// group. `next` in the functions below: subassemblies that will probably be asked about afterwards; idle threads
-/// compute their relations ahead.
+/// For each blocked direction one blocker is remembered, and the direction is not examined again while this blocker is
+/// in the group. `next` in the functions below: subassemblies that will probably be asked about afterwards; idle
+/// threads compute their relations speculatively.
 class StraightMotion final : public GroupListener {
  public:
   /// Along `directions`. All references must outlive this.
@@ -32,7 +32,7 @@ class StraightMotion final : public GroupListener {
   Subassemblies blockers(const GroupState& group, SubassemblyId id, std::size_t direction);
   /// By member, in the group's order: indices of the members that block it. Empty when the run is to stop.
   std::vector<std::vector<std::size_t>> blocking_graph(const GroupState& group, std::size_t direction);
-  /// The blockers along that one of `directions` that has the fewest.
+  /// The blockers along the direction of `directions` that has the fewest.
   Subassemblies fewest_blockers(const GroupState& group, SubassemblyId id, std::span<const std::size_t> directions);
   /// Proposes to the oracle that `ids` leave along the direction until the hulls are apart, and commits the answer if
   /// the path is accepted. A refusal is remembered until a group changes.
@@ -50,11 +50,11 @@ class StraightMotion final : public GroupListener {
   /// Forgets the remembered blocker of the direction, if it is `blocker`. False: it is not.
   bool forget_blocker(SubassemblyId id, std::size_t direction, SubassemblyId blocker);
   bool is_blocked(SubassemblyId id, std::size_t direction) const { return blocker_[id].contains(direction); }
-  /// Pairs that have to be known to decide whether `id` is free along the direction, the likeliest blocker first.
-  /// Empty: decided, and is_blocked() says how.
+  /// Pairs whose relations are needed to decide whether `id` is free along the direction, the likeliest blocker first.
+  /// Empty: decided, see is_blocked().
   std::vector<Pair> open_pairs(const GroupState& group, SubassemblyId id, std::size_t direction);
   bool blocks(const Pair& pair) { return relations_.blocks(pair); }
-  /// `moving`, translated by `shift`, past `fixed`.
+  /// The pair of `moving`, translated by `shift`, and `fixed`.
   Pair pair_of(PartId moving, PartId fixed, std::size_t direction,
                const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
   /// Distance along the direction after which the moving part is past the other one.
@@ -67,7 +67,7 @@ class StraightMotion final : public GroupListener {
   std::vector<Pair> pairs_of(SubassemblyId moving, SubassemblyId fixed, std::size_t direction) const;
   double path_length(const GroupState& group, const Subassemblies& ids, std::size_t direction,
                      const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
-  /// How far a group reaches along a direction, in the assembly's frame: its farthest subassembly, and the next.
+  /// How far a group reaches along a direction, in the assembly's frame: farthest subassembly and second farthest.
   struct FarEnd {
     SubassemblyId farthest = 0, next = 0;
     double end = -std::numeric_limits<double>::infinity(), next_end = end;

@@ -1,4 +1,4 @@
-/// A strategy takes subassemblies out of a group, or prepares that. A planner is a list of strategies.
+/// A strategy removes subassemblies from a group, or prepares a removal. A planner is a list of strategies.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@ namespace dismantle::blocking {
 
 /// The usual cost of a strategy that finds nothing. The list is in this order.
 enum class Cost {
-  pair_sweeps,       ///< straight sweeps of pairs, remembered: fractions of a second
+  pair_sweeps,       ///< straight sweeps of pairs, cached: fractions of a second
   arrangements,      ///< a search over arrangements of parts: up to a few seconds
   arc_sweeps,        ///< sweeps of rotating parts: up to a few seconds
   limited_search,    ///< path searches of limited depth
-  unlimited_search,  ///< path searches that may take all the time there is
+  unlimited_search,  ///< path searches that may take all the time that is left
 };
 
 /// What the planner does after a strategy.

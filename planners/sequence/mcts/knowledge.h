@@ -32,7 +32,7 @@ class Knowledge {
   void removed(PartId part, double cost);
   /// Records an unsuccessful search. `blocked_by`: parts that it met.
   void failed(PartId part, Outcome outcome, const std::vector<PartId>& blocked_by, double cost);
-  /// The same in a simulation, which does not change the observed rates and costs.
+  /// The same in a simulation: the observed rates and costs stay unchanged.
   void imagine_removal(PartId part);
   void imagine_failure(PartId part);
 
@@ -41,8 +41,8 @@ class Knowledge {
   /// since. After a search that ended at its depth limit, each further level has half the probability of the one
   /// before.
   double chance(PartId part) const;
-  /// Estimated cost of the search, in units of the mean cost so far: that of the last one, twice that if it goes
-  /// deeper.
+  /// Estimated cost of the next search for `part`, in units of the mean cost so far: the cost of the last search,
+  /// doubled if the next one goes deeper.
   double cost(PartId part) const;
 
  private:

@@ -20,14 +20,14 @@ void MctsParams::describe(Schema<MctsParams>& s) {
          .min = 0,
          .max = 1,
          .min_open = true,
-         .doc = "Factor on the value of a removal for each search of mean cost before it. A smaller one prefers cheap "
+         .doc = "Factor on the value of a removal for each search of mean cost before it. Smaller: prefers cheap "
                 "searches; 1 ignores costs."});
   s.add("horizon", &MctsParams::horizon,
-        {.unit = "1", .min = 1, .max = 1e6, .doc = "Most searches in one simulated order."});
+        {.unit = "1", .min = 1, .max = 1e6, .doc = "Largest number of searches in one simulated order."});
   s.add("max_depth", &MctsParams::max_depth,
         {.unit = "1", .min = 0, .max = 1e6, .doc = "Largest depth of the path search; 0 = no limit."});
   s.add("max_attempts", &MctsParams::max_attempts,
-        {.unit = "1", .min = 0, .doc = "Most searches of a run; 0 = no limit."});
+        {.unit = "1", .min = 0, .doc = "Largest number of searches in a run; 0 = no limit."});
 }
 
 SequenceResult Mcts::plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
@@ -43,7 +43,7 @@ SequenceResult Mcts::plan(const Assembly& assembly, PathOracle& oracle, Sequence
     if (choices.empty()) break;
     if (choices.size() > 1) simulations += params_.simulations;
     const PartId part = choices.front().part;
-    // The last pair needs no other order, so it is searched without a depth limit.
+    // No other part could be tried instead of the last pair, so its searches have no depth limit.
     const bool last_pair = params_.max_depth == 0 && knowledge.left() == 2;
     const unsigned depth = last_pair ? 0 : knowledge[part].depth;
     std::vector<PartId> next;

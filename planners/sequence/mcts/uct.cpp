@@ -56,7 +56,7 @@ class Simulation {
 
   double value() const { return possible_ > 0 ? sum_ / possible_ : 0; }
 
-  /// Draws an open part in proportion to its probability of success. None has weight 0, so that every part is drawn.
+  /// Draws an open part in proportion to its probability of success. No weight is 0, so that every part can be drawn.
   PartId draw() {
     const auto weight = [this](PartId p) { return std::max(1e-3, knowledge_.chance(p)); };
     double total = 0;

@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Sine of the angle to a circle below which a direction lies on it. Cross products of normals from files are good to
-// about 1e-7.
+// Sine of the angle to a circle below which a direction lies on it. Cross products of normals from files are accurate
+// to about 1e-7.
 constexpr double kOnCircle = 1e-6;
 
 using Signs = std::vector<int>;  // by circle: on which side, 0 on it

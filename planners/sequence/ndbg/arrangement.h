@@ -20,8 +20,8 @@ struct Arrangement {
 /// empty when fewer than three normals are linearly independent.
 Arrangement arrangement_of(const std::vector<Eigen::Vector3d>& normals);
 
-/// Up to `most` normals of the flat faces of all parts, the ones with the most surface first. Coordinate axes are added
-/// until three are linearly independent.
+/// Up to `most` normals of the flat faces of all parts, those with the most surface area first. Coordinate axes are
+/// added until three are linearly independent.
 std::vector<Eigen::Vector3d> circle_normals(const Assembly& assembly, std::size_t most);
 
 }  // namespace dismantle::ndbg

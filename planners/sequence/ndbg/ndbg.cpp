@@ -20,26 +20,23 @@ void NdbgParams::describe(Schema<NdbgParams>& s) {
                 {"as_given", PartOrder::as_given, "as the assembly lists its parts"},
                 {"large_first", PartOrder::large_first, "descending volume"}},
                "Order in which parts are removed when several are free.");
-  s.add(
-      "circles", &NdbgParams::circles,
-      {.unit = "1",
-       .min = 0,
-       .max = 24,
-       .doc =
-           "Most great circles of the arrangement: those of the flat faces with the most surface. The number of cells, "
-           "and so the time, grows with the square. 0 = only the axes of the parts."});
+  s.add("circles", &NdbgParams::circles,
+        {.unit = "1",
+         .min = 0,
+         .max = 24,
+         .doc = "Largest number of great circles in the arrangement: those of the flat faces with the most surface "
+                "area. The number of cells, and so the time, grows with the square. 0 = only the axes of the parts."});
   s.add_choice("cells", &NdbgParams::cells,
                {{"vertices", NdbgCells::vertices, "where two circles cross: along two flat contacts"},
                 {"arcs", NdbgCells::arcs, "and the arcs between: along one contact"},
                 {"faces", NdbgCells::faces, "and the faces: away from all contacts"}},
                "Cells of the arrangement that are examined.");
-  s.add(
-      "groups", &NdbgParams::groups,
-      {.doc = "When no single part is free, remove the smallest subassembly that is, and disassemble it separately."});
+  s.add("groups", &NdbgParams::groups,
+        {.doc = "When no single part is free, remove the smallest free subassembly and disassemble it separately."});
   s.add("group_proposals", &NdbgParams::group_proposals,
         {.unit = "1",
          .min = 1,
-         .doc = "Subassemblies that are proposed to the verifier before a group of parts is given up."});
+         .doc = "Largest number of subassemblies proposed to the verifier before a group of parts is given up."});
   s.add("searches", &NdbgParams::searches,
         {.doc = "When no translation removes anything, run the path planner for each part, one level deeper in every "
                 "round. Off: blocking graphs alone."});
@@ -56,7 +53,7 @@ blocking::Directions directions_of(const Assembly& assembly, unsigned circles, N
     for (const Eigen::Vector3d& d : list) {
       if (std::any_of(directions.all.begin(), directions.all.end(), [&](const Eigen::Vector3d& known) {
             return std::abs(known.dot(d)) > 1 - 1e-6;
-          }))  // as for axes of faces
+          }))  // the limit for axes of faces
         continue;
       directions.all.push_back(d);
       directions.all.push_back(-d);

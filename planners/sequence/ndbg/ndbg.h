@@ -9,7 +9,7 @@
 
 namespace dismantle {
 
-/// How much of the arrangement of directions is examined; each includes those before it.
+/// Which cells of the arrangement of directions are examined; each value includes those before it.
 enum class NdbgCells { vertices, arcs, faces };
 
 struct NdbgParams {

@@ -69,8 +69,8 @@ Outcome OneByOne::attempt(PartId part, unsigned max_depth, std::span<const PartI
   return result.outcome();
 }
 
-// One word for why parts are left: a crash before all, then what all have in common, then what more effort could
-// change.
+// The outcome of the run. A crash comes first, then an outcome that all parts share, then outcomes that more effort
+// could change.
 Outcome OneByOne::outcome() const {
   if (done()) return Outcome::solved;
   if (interrupted_) return why_;

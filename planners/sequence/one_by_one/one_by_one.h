@@ -1,4 +1,4 @@
-/// Bookkeeping of sequence planners that take single parts, one after the other, off the one group that is left.
+/// Bookkeeping for sequence planners that remove single parts, one after the other, from one group.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace dismantle {
 /// In which order parts are tried.
 enum class PartOrder { small_first, as_given, large_first };
 
-/// All parts in that order; by volume, equal ones as given.
+/// All parts in that order. Parts of equal volume stay in the order of the assembly.
 std::vector<PartId> ordered_parts(const Assembly& assembly, PartOrder order);
 
 class OneByOne {
@@ -24,14 +24,14 @@ class OneByOne {
 
   const std::vector<PartId>& left() const { return left_; }
   bool done() const { return left_.size() <= 1; }
-  /// True when the planner has to stop here. What is said of the parts left then speaks of the interruption.
+  /// True if the run was cancelled or its time is up, so that the planner has to stop. finish() then says so.
   bool interrupted();
-  /// Asks whether `part` can leave while all others left stay fixed, to `max_depth` (0 = no limit). When it can it
-  /// is removed immediately. `next`: parts that will be asked for after it, should it stay; worked ahead on.
+  /// Asks whether `part` can leave while all others left stay fixed, to `max_depth` (0 = no limit). If it can, it is
+  /// removed immediately. `next`: parts to ask for if it cannot; computed speculatively.
   Outcome attempt(PartId part, unsigned max_depth, std::span<const PartId> next = {});
-  /// That of the last attempt; lives as long as the oracle. Null before the first.
+  /// The answer to the last attempt; lives as long as the oracle. Null before the first attempt.
   const AttemptResult* answer() const { return answer_; }
-  /// The result as it stands.
+  /// The result so far.
   SequenceResult finish() const;
 
  private:
@@ -44,7 +44,7 @@ class OneByOne {
   RunContext& context_;
   std::vector<PartId> left_;
   std::vector<Removal> removals_;
-  std::vector<std::optional<Unsolved>> last_;  // by part id: the last attempt that said something
+  std::vector<std::optional<Unsolved>> last_;  // by part id: last failure; an interrupted one only if it is the first
   const AttemptResult* answer_ = nullptr;
   bool interrupted_ = false;
   Outcome why_ = Outcome::cancelled;

@@ -15,15 +15,13 @@ void ProgressiveParams::describe(Schema<ProgressiveParams>& schema) {
              {.unit = "1",
               .min = 0,
               .max = 1e6,
-              .doc = "Largest depth of the path search; 0 = none, rounds go on until nothing is to be gained by more "
-                     "depth."});
+              .doc = "Largest depth of the path search; 0 = no limit: rounds continue until more depth cannot help."});
   schema.add("deepen_always", &ProgressiveParams::deepen_always,
-             {.doc = "Go deeper with every round, as Algorithm 2 does. Off: only after a round in which no part left, since "
-                     "most parts leave by a simple motion once others are out of their way."});
-  schema.add(
-      "last_pair_unlimited", &ProgressiveParams::last_pair_unlimited,
-      {.doc = "When two parts are left and max_depth is 0, the search for the way of either has no depth limit: there "
-              "is nothing to be fair to. Off: exactly Algorithm 2."});
+             {.doc = "Go deeper with every round, as Algorithm 2 does. Off: only after a round in which no part left, "
+                     "since most parts leave by a simple motion once their blockers have left."});
+  schema.add("last_pair_unlimited", &ProgressiveParams::last_pair_unlimited,
+             {.doc = "When two parts are left and max_depth is 0, their searches have no depth limit, because no other "
+                     "part could be tried instead. Off: exactly Algorithm 2."});
 }
 
 SequenceResult Progressive::plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
@@ -46,7 +44,7 @@ SequenceResult Progressive::plan(const Assembly& assembly, PathOracle& oracle, S
     }
     if (sequence.interrupted()) break;
     const bool at_limit = params_.max_depth != 0 && depth >= params_.max_depth;
-    // At the limit a round is repeated at the same depth, as long as parts leave and make room for others.
+    // At the limit a round is repeated at the same depth, as long as parts leave, because this may free others.
     if (removed_any && (at_limit || !params_.deepen_always)) --depth;
     if (!removed_any && (at_limit || !deeper_may_help)) break;
   }

@@ -1,4 +1,4 @@
-/// Algorithm 2 of the paper: search for a removal of each part, shallow first, deeper round by round.
+/// Algorithm 2 of Tian et al. 2022: searches for a removal of each part, one level deeper in each round.
 #pragma once
 
 #include "dismantle/parameters.h"

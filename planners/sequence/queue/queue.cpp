@@ -15,14 +15,14 @@ void QueueParams::describe(Schema<QueueParams>& schema) {
 SequenceResult Queue::plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
                            RunContext& context) {
   OneByOne sequence(assembly, ordered_parts(assembly, params_.order), oracle, observer, context);
-  // The queue in two pieces: `failed` are those behind, tried with just the parts that are left now.
+  // The front and the back of the queue. `failed`: parts that were tried with exactly the parts that are left now.
   std::vector<PartId> waiting = sequence.left();
   std::vector<PartId> failed;
   while (!sequence.done() && !waiting.empty() && !sequence.interrupted()) {
     const PartId part = waiting.front();
     waiting.erase(waiting.begin());
     if (is_success(sequence.attempt(part, 0, waiting))) {
-      waiting.insert(waiting.end(), failed.begin(), failed.end());  // there is room now: all of them once more
+      waiting.insert(waiting.end(), failed.begin(), failed.end());  // the removal may have freed them: try all again
       failed.clear();
     } else {
       failed.push_back(part);

@@ -1,4 +1,4 @@
-/// Algorithm 2 without depth limit: the paper's Full BFS, and the scheme of its baselines (section 6.3).
+/// Algorithm 2 of Tian et al. 2022 without a depth limit: their Full BFS and baselines (section 6.3).
 #pragma once
 
 #include "dismantle/parameters.h"

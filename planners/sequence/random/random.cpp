@@ -25,7 +25,7 @@ SequenceResult Random::plan(const Assembly& assembly, PathOracle& oracle, Sequen
                             RunContext& context) {
   OneByOne sequence(assembly, ordered_parts(assembly, PartOrder::as_given), oracle, observer, context);
   bool removed = true;
-  while (removed && !sequence.done()) {  // each removal makes room: all others are drawn anew
+  while (removed && !sequence.done()) {  // a removal may free others: draw all again
     removed = false;
     std::vector<PartId> drawn = sequence.left();
     shuffle(drawn, context.rng);

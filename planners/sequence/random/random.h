@@ -1,4 +1,4 @@
-/// Parts in random order, without depth limit: what any cleverer order has to beat.
+/// Parts in random order: the baseline for all other orders.
 #pragma once
 
 #include "dismantle/parameters.h"

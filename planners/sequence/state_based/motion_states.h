@@ -1,5 +1,5 @@
-/// The states to which translations take a part. They are kept for the whole run: states that were found while other
-/// parts were in the way are extended when these have left.
+/// The states that a part reaches by translations. They are kept for the whole run, and extended when parts that
+/// blocked them have left.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ struct MotionStateParams {
   std::size_t states = 24;  ///< most states of one part
   unsigned stops = 1;       ///< states per translation: at contact, and evenly spaced before it
   unsigned halvings = 12;
-  double retreat = 1;      ///< from contact; tolerances of the verifier
+  double retreat = 1;      ///< distance kept from contact; tolerances of the verifier
   double least_step = 20;  ///< shortest translation that is kept; tolerances of the verifier
 };
 
@@ -34,10 +34,10 @@ class MotionStates {
                double tolerance, const MotionStateParams& params);
 
   /// Waypoints of a path that removes a single part: translations from its pose in the group, the first zero. Extends
-  /// the known states, breadth first; nothing: no path through at most params.states of them. Paths that were refused
-  /// since the group changed are not found again.
+  /// the known states, breadth first. Nothing: no path through up to params.states of them. Paths that were refused
+  /// since the group changed are not returned again.
   std::optional<std::vector<Eigen::Vector3d>> path_out(const GroupState& group, SubassemblyId id);
-  /// The checker refused the last path of this part.
+  /// Records that the verifier refused the last path of this part.
   void refuse(SubassemblyId id);
   void on_group_changed() { refused_.clear(); }
 

@@ -27,38 +27,38 @@ void StateBasedParams::describe(Schema<StateBasedParams>& s) {
         {.unit = "1",
          .min = 1,
          .max = 1e5,
-         .doc = "Most motion states of one part. A part that needs a path of many short translations needs more; time "
-                "grows in proportion."});
+         .doc = "Largest number of motion states of one part. Paths of many short translations need more; time grows "
+                "in proportion."});
   s.add("stops", &StateBasedParams::stops,
         {.unit = "1",
          .min = 1,
          .max = 100,
-         .doc =
-             "States that one translation leads to: at contact, and evenly spaced on the way there. Only more than one "
-             "finds an opening beside the path."});
+         .doc = "Number of states that one translation leads to: at contact, and evenly spaced before it. Openings "
+                "beside the path are found only with more than one."});
   s.add("halvings", &StateBasedParams::halvings,
         {.unit = "1",
          .min = 1,
          .max = 50,
-         .doc = "Bisections to find where a translation meets a part: 12 give a 4096th of its length."});
+         .doc = "Bisections to find where a translation meets a part: 12 resolve a 4096th of its length."});
   s.add("retreat", &StateBasedParams::retreat,
-        {.unit = "verify.max_penetration", .min = 0, .max = 1e6, .doc = "How far before contact a translation stops."});
+        {.unit = "verify.max_penetration",
+         .min = 0,
+         .max = 1e6,
+         .doc = "Distance before contact at which a translation stops."});
   s.add("least_step", &StateBasedParams::least_step,
         {.unit = "verify.max_penetration",
          .min = 0,
          .max = 1e6,
          .min_open = true,
          .doc = "Shortest translation that is kept, and least distance between two states."});
-  s.add("groups", &StateBasedParams::groups,
-        {.doc = "When no single part is free, remove the smallest group that is."});
+  s.add("groups", &StateBasedParams::groups, {.doc = "When no single part is free, remove the smallest free group."});
   s.add("group_proposals", &StateBasedParams::group_proposals,
         {.unit = "1",
          .min = 1,
-         .doc = "Subassemblies that are proposed to the verifier before a group of parts is given up."});
-  s.add(
-      "searches", &StateBasedParams::searches,
-      {.doc = "When translations remove nothing, run the path planner for each part, one level deeper in every round. "
-              "Only this finds rotations."});
+         .doc = "Largest number of subassemblies proposed to the verifier before a group of parts is given up."});
+  s.add("searches", &StateBasedParams::searches,
+        {.doc = "When translations remove nothing, run the path planner for each part, one level deeper in every "
+                "round. Only these searches find rotations."});
   s.add("resume", &StateBasedParams::resume,
         {.doc = "A search by the path planner resumes the last one of the same part."});
   s.add("max_depth", &StateBasedParams::max_depth,

@@ -38,14 +38,15 @@ struct Parameters {
            .doc = "Share of verify.max_penetration, above the initial overlap, at which a state counts as colliding."});
     s.add("simplify", &Parameters::simplify, {.doc = "Replace detours by straight motions where these are free."});
     s.add("max_checks", &Parameters::max_checks,
-          {.unit = "1", .min = 0, .doc = "Most state checks for one transfer; 0 = only the limits of the run apply."});
-    s.add(
-        "max_refused", &Parameters::max_refused,
-        {.unit = "1",
-         .min = 1,
-         .max = 1e6,
-         .doc = "Paths of the trees that the verifier may refuse. Where simulator and verifier disagree, more paths of "
-                "the same kind hardly help."});
+          {.unit = "1",
+           .min = 0,
+           .doc = "Largest number of state checks for one transfer; 0 = only the limits of the run apply."});
+    s.add("max_refused", &Parameters::max_refused,
+          {.unit = "1",
+           .min = 1,
+           .max = 1e6,
+           .doc = "Number of refused paths after which the search ends. Where simulator and verifier disagree, more "
+                  "paths of the same kind rarely help."});
   }
 };
 

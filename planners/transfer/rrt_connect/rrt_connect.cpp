@@ -15,7 +15,7 @@ class RrtConnect final : public TransferPlanner {
  public:
   explicit RrtConnect(const Parameters& parameters) : parameters_(parameters) {}
 
-  /// None: straight candidates need no simulator. Trees do, and say so.
+  /// None: straight candidates need no simulator. Trees need one, and plan() reports if it does not suffice.
   Capabilities needs() const noexcept override { return {}; }
 
   PathResult plan(const TransferQuery& query, RunContext& context) override {
@@ -41,7 +41,7 @@ class RrtConnect final : public TransferPlanner {
  private:
   bool goes_straight(const TransferQuery& query, RunContext& context, PathResult& result) {
     const StraightTransfers straight(query, parameters_.clearance, boxes_);
-    std::uint64_t refused = 0;  // only what trees find counts in the statistics
+    std::uint64_t refused = 0;  // not in the statistics: these count only paths of trees
     std::size_t instants = 0;
     return path::show_forms(
                query.checker, refused,

@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The largest coordinate of the parts in direction `v`. Vertices are visited only of parts whose box reaches further
-/// than the others.
+/// The largest coordinate of the parts in direction `v`. Only parts whose box reaches further than the maximum so far
+/// have their vertices visited.
 double reach(const Assembly& assembly, PartBoxes& boxes, const std::vector<PlacedPart>& parts, const Pose& displacement,
              const Vector3d& v) {
   double most = -std::numeric_limits<double>::infinity();
@@ -101,13 +101,13 @@ Path StraightTransfers::path_of(const std::vector<Pose>& displacements) const {
 Path StraightTransfers::over(const Vector3d& v) const {
   const bool turns = angle_between(goal_.q, Eigen::Quaterniond::Identity()) > 1e-9;
   const Vector3d there = goal_ * center_;
-  // A group that rotates needs the room of its bounding sphere, another one only its own.
+  // A group that rotates must clear the obstacles by its bounding sphere, another one only by its own extent.
   const double own_start = -reach(query_.assembly, boxes_, query_.scene.moving, {}, -v);
   const double own_goal = -reach(query_.assembly, boxes_, query_.scene.moving, goal_, -v);
   const double lowest_start = turns ? v.dot(center_) - radius_ : own_start;
   const double lowest_goal = turns ? v.dot(there) - radius_ : own_goal;
   const double top = reach(query_.assembly, boxes_, query_.scene.fixed, {}, v) + clearance_;
-  // Heights of the ball's centre that clear everything, and are not below either end.
+  // Height of the ball's centre at which the group clears everything, not below either end.
   const double height =
       std::max({v.dot(center_) + std::max(0.0, top - lowest_start), v.dot(there) + std::max(0.0, top - lowest_goal)});
   const Pose lifted = shift((height - v.dot(center_)) * v);

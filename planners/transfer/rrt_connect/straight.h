@@ -12,7 +12,7 @@
 
 namespace dismantle::rrt_connect {
 
-/// The displacement that takes the group from start to goal. False: the goal is not the group moved as a rigid body.
+/// The displacement that takes the group from start to goal. False: the goal is not a rigid displacement of the group.
 bool displacement_to_goal(const TransferQuery& query, Pose& displacement);
 
 /// Boxes of the parts in their own frames, kept from one transfer to the next.
@@ -22,15 +22,15 @@ class PartBoxes {
 
  private:
   struct Known {
-    std::shared_ptr<const Mesh> mesh;  // what the box is of
+    std::shared_ptr<const Mesh> mesh;  // that the box encloses
     Aabb box;
   };
   std::vector<Known> known_;  // by part
 };
 
 /// Candidate paths, the most promising first: over everything on the side `up`, below everything, straight from start
-/// to goal, around on the other four sides. The group rotates about its centre where all other parts are at least
-/// `clearance` (assembly units) away. Each is computed when it is asked for, since the first is mostly free.
+/// to goal, around on the other four sides. The group rotates about its centre, except on the straight path only where
+/// all other parts are at least `clearance` (assembly units) away. Computed on demand, since the first is usually free.
 class StraightTransfers {
  public:
   /// `query` and `boxes` must outlive this.
@@ -45,9 +45,9 @@ class StraightTransfers {
   const TransferQuery& query_;
   double clearance_;
   PartBoxes& boxes_;
-  bool rigid_;                                        // the goal is the group moved as a rigid body
-  Pose goal_;                                         // its displacement
-  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();  // of a ball around all that moves, at the start
+  bool rigid_;                                        // the goal is a rigid displacement of the group
+  Pose goal_;                                         // that displacement
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();  // of a ball around the moving parts, at the start
   double radius_ = 0;
 };
 

@@ -4,7 +4,7 @@
 
 namespace dismantle::blocking {
 
-/// Rounds of other groups are cheaper. Of several pairs none takes all the time, so each gets a limited search in turn.
+/// Waits for the rounds of other groups, which are cheaper. Several pairs take turns with limited searches.
 Result PairSearch::apply(GroupState& group) {
   if (!params_.pair_searches || !group.is_pair() || group.pair_finished) return Result::unchanged;
   const auto& waiting = state_.waiting();
@@ -15,7 +15,7 @@ Result PairSearch::apply(GroupState& group) {
   return Result::defer;
 }
 
-/// True: they came apart.
+/// True: the pair was separated.
 bool PairSearch::search(GroupState& group) {
   const unsigned depth = history_.next_depth_of_pair(group, lookahead_.other_pairs_wait());
   const bool unlimited = depth == 0;

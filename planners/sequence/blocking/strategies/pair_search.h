@@ -1,4 +1,4 @@
-/// Searches for the paths of the last two of a group: deeper each time, and in the end without limit.
+/// Path searches for the last two subassemblies of a group: deeper each time, in the end without a depth limit.
 #pragma once
 
 #include "blocking/path_searcher.h"

@@ -20,7 +20,7 @@ PartialTranslation::PartialTranslation(DisassemblyState& state, PathOracle& orac
       params_(params),
       translations_(state.assembly(), oracle.tolerance(), params) {}
 
-/// Two bodies are left to the path planner, which gives one path instead of many steps.
+/// A pair is left to the path planner, which returns one path instead of many steps.
 Result PartialTranslation::apply(GroupState& group) {
   Progress& progress = progress_[group];
   const bool more_effort = group.translations_limited && group.search_depth > progress.depth;
@@ -31,7 +31,7 @@ Result PartialTranslation::apply(GroupState& group) {
   return Result::unchanged;
 }
 
-/// Makes the translations that are found. After a refusal the search is repeated without the refused one.
+/// Makes the translations that are found. After a refusal the search is repeated without the refused translation.
 bool PartialTranslation::search(GroupState& group) {
   const auto suits = [&](SubassemblyId s) {
     return state_.is_single(s) && is_translation(state_.pose(state_.part_of(s)));
@@ -73,7 +73,7 @@ TranslationSearch::Answer PartialTranslation::find(GroupState& group) {
 }
 
 PartialTranslation::Made PartialTranslation::make(GroupState& group, const Translation& slide) {
-  // The rest could move just as well: to the user it is the smaller part that does.
+  // Moving the rest along the opposite direction is equivalent. The smaller set moves, as a user expects.
   Subassemblies ids;
   for (const PartId id : slide.parts) ids.push_back(state_.subassembly_of(id));
   Eigen::Vector3d direction = slide.direction;
@@ -116,7 +116,7 @@ bool PartialTranslation::translate(GroupState& group, const Subassemblies& ids, 
   return true;
 }
 
-/// From now on the moving parts meet those that the refusal names, or all, as far as the search is concerned.
+/// Blocks the direction in the search: for the first part that the refusal names, or for all if it names none.
 void PartialTranslation::forbid(const GroupState& group, const Subassemblies& ids, const Eigen::Vector3d& direction,
                                 const AttemptResult* refusal) {
   const bool named = refusal != nullptr && !refusal->result.blocked_by.empty();

@@ -1,4 +1,4 @@
-/// Straight translations that leave parts part-way, found by a search over the arrangements of all parts of a group.
+/// Translations to intermediate placements, found by a search over the arrangements of all parts of a group.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ class PartialTranslation final : public Strategy {
     unsigned depth = 0;  ///< GroupState::search_depth at the last search
     std::string note;
   };
-  /// What becomes of one slide that was found.
+  /// Result of proposing one translation to the oracle.
   enum class Made { yes, refused, removed, impossible };
   bool search(GroupState& group);
   TranslationSearch::Answer find(GroupState& group);

@@ -4,7 +4,7 @@
 
 namespace dismantle::blocking {
 
-/// A group that needs a deeper search waits until the others have had theirs.
+/// A group that needs a deeper round waits until the other groups have had their rounds.
 Result PathSearch::apply(GroupState& group) {
   const auto& waiting = state_.waiting();
   const bool last_group =

@@ -1,5 +1,5 @@
-/// Makes the searches that were put off because what they had touched was still there: nothing is given up without a
-/// search of every part in the group as it is. Proofs that follow are expensive, so they wait for this of all groups.
+/// Makes the searches that were postponed because the parts that they had touched were still in the group. So no group
+/// is given up before each of its parts was searched for in the group as it is.
 #pragma once
 
 #include "blocking/path_searcher.h"

@@ -10,8 +10,8 @@ namespace dismantle::blocking {
 
 namespace {
 
-/// Unit vector in which a part with this box advances: along the axis if it turns more than it moves, as a screw does,
-/// else as its middle moves. Zero for no motion.
+/// Unit vector along which a part with this box advances: along the axis if it rotates more than it translates, as a
+/// screw does; otherwise as the centre of the box moves. Zero for no motion.
 Eigen::Vector3d direction_of(const Pose& from, const Pose& to, const Aabb& box) {
   const Eigen::Vector3d way = to * box.center() - from * box.center();
   const Eigen::Vector3d turn = rotation_vector(to.q * from.q.conjugate());
@@ -21,7 +21,7 @@ Eigen::Vector3d direction_of(const Pose& from, const Pose& to, const Aabb& box) 
 
 }  // namespace
 
-/// A path of two poses is straight, or a turn that a search finds in its first steps.
+/// Paths of two poses are not kept: they are straight, or a rotation that a search finds in its first steps.
 void RepeatedPath::on_group_changed(GroupState&, const GroupChange& change) {
   if (proposes_ || change.kind != GroupChange::Kind::removed) return;
   const Removal& removal = state_.removals().back();
@@ -40,7 +40,7 @@ Result RepeatedPath::apply(GroupState& group) {
   return Result::unchanged;
 }
 
-/// A refusal stands as long as one of the parts that were in the way is there.
+/// A refusal is valid while one of the parts that blocked the path is in the group, or if these are not known.
 bool RepeatedPath::is_refused(const GroupState& group, std::size_t known, PartId part) const {
   const auto refusal = refused_.find({known, part});
   return refusal != refused_.end() &&
@@ -49,7 +49,7 @@ bool RepeatedPath::is_refused(const GroupState& group, std::size_t known, PartId
           }));
 }
 
-/// Copies that were tessellated or scaled each in its own way have boxes of about the same size.
+/// Copies that were tessellated or scaled differently still have boxes of about the same size.
 const std::optional<Pose>& RepeatedPath::displacement(PartId from, PartId to) {
   const auto [entry, is_new] = displacements_.try_emplace({from, to});
   if (!is_new) return entry->second;
@@ -61,7 +61,7 @@ const std::optional<Pose>& RepeatedPath::displacement(PartId from, PartId to) {
   return entry->second;
 }
 
-/// Straight on until the part is apart from all others: these may reach farther where the copy leaves.
+/// Extends the path straight until the part is apart from all others, which may reach farther at the copy.
 void RepeatedPath::extend(PartId part, const std::vector<PlacedPart>& others, Path& path) const {
   const Pose last = path.back().front();
   const Eigen::Vector3d direction =

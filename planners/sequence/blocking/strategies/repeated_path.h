@@ -1,4 +1,4 @@
-/// Tries the path on which a part has left on its copies: screws, legs, clips, each in a seat of the same shape.
+/// Proposes the path of a removed part for its copies: screws, legs, clips, each in a seat of the same shape.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@
 
 namespace dismantle::blocking {
 
-/// A copy is a part with the same triangles elsewhere, or with a box of about the same size. Its path is the known one,
-/// displaced as the part is: where the seats are copies too it is valid, and the verifier says whether it is. A
-/// proposal costs one verification; the search that it spares costs mostly more. Straight paths are left to free_part.
+/// A copy is a part with the same triangles elsewhere, or with a box of about the same size. Its path is the known
+/// path, displaced as the part is. The path is valid if the seats are copies too, which the verifier decides. The
+/// verification usually costs less than a search. Straight paths are left to free_part.
 class RepeatedPath final : public Strategy {
  public:
   RepeatedPath(DisassemblyState& state, PathOracle& oracle, const PairSweep& sweep, const RepeatedPathParams& params)
@@ -26,7 +26,7 @@ class RepeatedPath final : public Strategy {
   void on_group_changed(GroupState& group, const GroupChange& change) override;
 
  private:
-  /// A part that has left on a path that was searched for.
+  /// A part that was removed on a path found by a search.
   struct Known {
     PartId part = 0;
     const AttemptResult* answer = nullptr;  ///< of the oracle, with the path
@@ -44,7 +44,7 @@ class RepeatedPath final : public Strategy {
   std::vector<Known> known_;
   bool proposes_ = false;  ///< the change comes from this strategy
   std::map<std::pair<PartId, PartId>, std::optional<Pose>> displacements_;
-  /// By path and part: what was in the way.
+  /// By path and part: the parts that blocked the refused proposal. Empty: unknown, or no copy.
   std::map<std::pair<std::size_t, PartId>, std::vector<PartId>> refused_;
   std::map<PartId, unsigned> refusals_;  ///< proposals that the verifier refused
 };

@@ -11,7 +11,7 @@ Pose RotationInPlace::Rotation::at(double angle) const {
   return {point + q * (start.t - point), (q * start.q).normalized()};
 }
 
-/// Rotation costs more than the first round of path searches.
+/// Waits for the first round of path searches, which costs less than rotation.
 Result RotationInPlace::apply(GroupState& group) {
   if (group.members.size() < 3 || done_[group] || (group.search_depth == 1 && !group.searches_exhausted))
     return Result::unchanged;
@@ -36,7 +36,7 @@ bool RotationInPlace::rotate_any(GroupState& group) {
 
 double RotationInPlace::arc() const { return 2 * std::numbers::pi / params_.rotation_stops; }
 
-/// Both ways about the axis, until another subassembly is free.
+/// Rotates about the axis in both senses until another subassembly is free.
 bool RotationInPlace::rotate(GroupState& group, SubassemblyId id, const RotationAxis& axis) {
   for (const int sense : {1, -1}) {
     const Rotation rotation{id, axis, state_.pose(state_.part_of(id)), sense};
@@ -53,13 +53,13 @@ bool RotationInPlace::rotate(GroupState& group, SubassemblyId id, const Rotation
       straight_.leave(group, {freed->first}, freed->second);  // if that is refused, the next round tries again
       return true;
     }
-    if (!met) break;  // all the way round: the other sense has nothing to add
+    if (!met) break;  // a full turn covers the other sense; or the oracle refused
   }
   return false;
 }
 
-/// Appends the pose of the next stop to `path`, or that where the part meets something, if it comes any further; false
-/// in that case.
+/// Appends the pose of the next stop to `path`. False: the part meets another one before. Then the last pose before
+/// contact is appended, if the part gets any further.
 bool RotationInPlace::step(const GroupState& group, const Rotation& rotation, unsigned stop, Path& path) {
   const Pose last = path.back().front();
   const Pose next = rotation.at(stop * arc());
@@ -76,7 +76,7 @@ bool RotationInPlace::step(const GroupState& group, const Rotation& rotation, un
   return false;
 }
 
-/// Can the part go from one pose to the other, which is a short arc away?
+/// Can the part move along the short arc from one pose to the other?
 bool RotationInPlace::sweeps_clear(const GroupState& group, SubassemblyId id, const Pose& from, const Pose& to) {
   for (const SubassemblyId other : group.members) {
     if (other == id) continue;
@@ -88,7 +88,7 @@ bool RotationInPlace::sweeps_clear(const GroupState& group, SubassemblyId id, co
   return true;
 }
 
-/// That depends on these two parts alone, and is asked again whenever another has left.
+/// Cached: the answer depends on these two parts alone, and is needed again whenever another part has left.
 bool RotationInPlace::arc_passes(PartId part, const Pose& from, const Pose& to, PartId fixed) {
   const Pose& there = state_.pose(fixed);
   std::vector<double> key{static_cast<double>(part), static_cast<double>(fixed)};
@@ -101,7 +101,7 @@ bool RotationInPlace::arc_passes(PartId part, const Pose& from, const Pose& to, 
   return arcs_.emplace(std::move(key), passes).first->second;
 }
 
-/// Which other could leave, and along which direction, if `id` stood at `pose`? Each rotation is answered once.
+/// Which other could leave, and in which direction, with `id` at `pose`? A rotation is reported only once.
 std::optional<std::pair<SubassemblyId, std::size_t>> RotationInPlace::freed_at(const GroupState& group,
                                                                                SubassemblyId id, const Pose& pose) {
   const PartId part = state_.part_of(id);
@@ -114,15 +114,15 @@ std::optional<std::pair<SubassemblyId, std::size_t>> RotationInPlace::freed_at(c
   return freed;
 }
 
-/// Only those are asked that `id` was in the way of. Whether rotation frees the part itself is a question for the path
-/// planner.
+/// Examines only subassemblies and directions that `id` blocked. Rotations that free the part itself are left to the
+/// path planner.
 std::optional<std::pair<SubassemblyId, std::size_t>> RotationInPlace::freed_by(const GroupState& group,
                                                                                SubassemblyId id) {
   for (const SubassemblyId other : group.members) {
     if (other == id || !state_.may_leave(group, {other})) continue;
     for (const std::size_t d : straight_.directions_of(group, other)) {
       if (state_.stop() || limit_reached()) return std::nullopt;
-      // Another one that is in the way stays there; if it is this one again, it was before.
+      // A different blocker stays where it is. If `id` still blocks, it is remembered as before.
       if (!straight_.forget_blocker(other, d, id)) continue;
       for (auto open = straight_.open_pairs(group, other, d); !open.empty();
            open = straight_.open_pairs(group, other, d)) {
@@ -135,7 +135,7 @@ std::optional<std::pair<SubassemblyId, std::size_t>> RotationInPlace::freed_by(c
   return std::nullopt;
 }
 
-/// Proposes the rotation to the oracle, and leaves the part there.
+/// Proposes the rotation to the oracle. The part stays there if it is accepted.
 bool RotationInPlace::commit(GroupState& group, SubassemblyId id, const Path& path) {
   Attempt attempt = state_.attempt_for(group, {id});
   attempt.goal.placement = true;

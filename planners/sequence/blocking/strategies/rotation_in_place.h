@@ -1,4 +1,4 @@
-/// Rotates a part about the axis of one of its round surfaces and leaves it there, where that frees another part: a
+/// Rotates a part about the axis of one of its round surfaces, and leaves it rotated if that frees another part: a
 /// latch, a bayonet, a disc under a slider.
 #pragma once
 
@@ -26,7 +26,7 @@ class RotationInPlace final : public Strategy {
   void on_group_changed(GroupState& group, const GroupChange&) override { done_[group] = false; }
 
  private:
-  /// A part on its way about an axis.
+  /// A rotation of one part about one axis.
   struct Rotation {
     SubassemblyId id = 0;
     RotationAxis axis;
@@ -54,10 +54,10 @@ class RotationInPlace final : public Strategy {
   const RotationParams& params_;
   PerGroup<bool> done_;
   std::map<PartId, std::vector<RotationAxis>> axes_;
-  /// Rotations that freed another part once: members of the group, part, orientation.
+  /// Rotations that have already freed another part: members of the group, part, orientation.
   std::set<std::pair<Subassemblies, std::pair<SubassemblyId, std::size_t>>> tried_;
   std::map<std::vector<double>, bool> arcs_;  // by two parts and three poses
-  unsigned sweeps_ = 0;                       // for the group as it is
+  unsigned sweeps_ = 0;                       // since the last change of the group
 };
 
 }  // namespace dismantle::blocking

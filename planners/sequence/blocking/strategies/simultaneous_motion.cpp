@@ -5,10 +5,10 @@
 namespace dismantle::blocking {
 namespace {
 
-/// Rounds over the candidate sets: pairs, all sets, and at last some of them with searches of `simultaneous_depth`.
+/// Rounds over the candidate sets: pairs, then all sets, then some of them to `simultaneous_depth`.
 constexpr unsigned kRounds = 3;
 
-/// How far the part has come from where it was, rotation included, as seen on its box.
+/// How far the part has moved between two poses, including rotation, measured on the ball around its box.
 double travel(const Mesh& mesh, const Pose& from, const Pose& to) {
   const Aabb box = mesh.box();
   return box.empty() ? (to.t - from.t).norm() : screw_travel(from, to, box.center(), 0.5 * box.size().norm());
@@ -28,7 +28,7 @@ SimultaneousMotion::SimultaneousMotion(DisassemblyState& state, PathOracle& orac
       play_(play),
       max_depth_(max_depth) {}
 
-/// What it has cost is measured by what the searches for single parts have; nothing waits for good, for these end.
+/// Compares the cost so far with that of the searches for single parts. No set waits forever, as these end.
 bool SimultaneousMotion::can_afford(const GroupState& group) const {
   return group.searches_exhausted || work_ <= params_.simultaneous_share * history_.work();
 }
@@ -61,8 +61,8 @@ Result SimultaneousMotion::apply(GroupState& group) {
   return Result::unchanged;
 }
 
-/// Sets of which one member would be free if it were not for the others: the edges of the blocking graphs where they
-/// are fewest. Small sets first, then those with most directions in which it is so. The housing stays where it is.
+/// Sets in which the other members are the only blockers of one member along some direction, from the blocking graphs.
+/// Small sets come first, then sets to which this applies along most directions. The housing is never moved.
 std::vector<Subassemblies> SimultaneousMotion::candidate_sets(const GroupState& group) {
   const SubassemblyId housing = state_.housing_of(group);
   const auto moves = [&](SubassemblyId s) {
@@ -91,7 +91,7 @@ std::vector<Subassemblies> SimultaneousMotion::candidate_sets(const GroupState& 
 
 unsigned SimultaneousMotion::depth_of(unsigned round) const { return round < kRounds ? 1 : params_.simultaneous_depth; }
 
-/// Nothing when none of them may leave.
+/// Nothing if none of `ids` may leave.
 std::optional<Attempt> SimultaneousMotion::attempt_for(const GroupState& group, const Subassemblies& ids,
                                                        unsigned round) const {
   Attempt attempt = state_.attempt_for(group, ids);
@@ -102,7 +102,7 @@ std::optional<Attempt> SimultaneousMotion::attempt_for(const GroupState& group, 
   return attempt;
 }
 
-/// As for searches of single parts: not again while all that was touched is there. Deeper only where several moved.
+/// As for single parts, a search is repeated when a part that it touched has left; deeper only if several parts moved.
 bool SimultaneousMotion::is_worthwhile(const GroupState& group, const Subassemblies& ids, unsigned round) const {
   const auto known = last_.find(ids);
   if (known == last_.end()) return true;

@@ -1,5 +1,5 @@
-/// Moves two or three parts, each in its own way, until one of them is out: what an interlock of parts asks for, of
-/// which none moves alone.
+/// Moves two or three parts simultaneously, each along its own path, until one is removed: for interlocks in which no
+/// part can move alone.
 #pragma once
 
 #include <map>
@@ -14,12 +14,12 @@
 
 namespace dismantle::blocking {
 
-/// Three rounds. Pairs to depth 1, before single parts are searched deeper; then larger sets, which are expensive; then
-/// those sets deeper in which more than one part moved. Before the searches for single parts are over, all of this
-/// costs no more than a share of what they have cost: a set that is too early for that waits.
+/// Three rounds: pairs to depth 1, before single parts are searched deeper; then larger sets, which are expensive; then
+/// deeper searches of sets in which more than one part moved. Until the searches for single parts are over, a set waits
+/// while simultaneous motions have cost more than a share (`simultaneous_share`) of these searches.
 class SimultaneousMotion final : public Strategy {
  public:
-  /// `play`: parts that have moved by less have not moved; assembly units.
+  /// `play`: a part that has moved by less does not count as moved; assembly units.
   SimultaneousMotion(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight, const Lookahead& lookahead,
                      const SearchHistory& history, const SimultaneousMotionParams& params, unsigned max_depth,
                      double play);
@@ -31,8 +31,8 @@ class SimultaneousMotion final : public Strategy {
 
  private:
   struct Progress {
-    unsigned rounds = 0;            ///< that are over
-    std::set<Subassemblies> tried;  ///< in the round that is under way
+    unsigned rounds = 0;            ///< finished rounds
+    std::set<Subassemblies> tried;  ///< in the current round
     std::string note;
   };
   struct PastMotion {
@@ -59,7 +59,7 @@ class SimultaneousMotion final : public Strategy {
   unsigned max_depth_;
   PerGroup<Progress> progress_;
   std::map<Subassemblies, PastMotion> last_;
-  double work_ = 0;           // of unsuccessful motions, as SearchHistory::work()
+  double work_ = 0;           // of unsuccessful motions, in the unit of SearchHistory::work()
   bool unsupported_ = false;  // by the path planner or the simulator
 };
 

@@ -4,7 +4,7 @@
 
 namespace dismantle::blocking {
 
-/// Those in the way of one that is not free are wanted too, along the direction with the fewest.
+/// If a wanted subassembly is not free, its blockers along the direction with the fewest are wanted too.
 Result TargetFirst::apply(GroupState& group) {
   if (!state_.constraints().target) return Result::unchanged;
   const SubassemblyId target = state_.subassembly_of(*state_.constraints().target);

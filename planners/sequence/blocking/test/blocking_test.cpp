@@ -1,4 +1,4 @@
-// The planner on boxes whose truth is plain, with a path planner that never finds anything.
+// The planner on boxes with known answers, with a path planner that never finds anything.
 #include "blocking/blocking.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 using fake::helpless;
 using fake::take_apart;
 
-/// Two combs that hold each other, in a tube that is open at the top: only together do they come out of it.
+/// Two combs that hold each other, in a tube that is open at the top: they can leave it only as one group.
 Assembly combs_in_tube() {
   const auto hook = [](double s) {  // a stem, and two teeth, each between two of the other's
     std::vector<fake::Box> boxes{{{0.5, -0.9, 0.1}, {0.9, 0.9, 3.9}},
@@ -89,7 +89,7 @@ TEST(Blocking, ShiftsWhatIsInTheWayAndLeavesItThere) {
 
 TEST(Blocking, TakesOutAGroupAndThenTakesItApart) {
   RunOptions options;
-  options.constraints.base = {0};  // else it is the tube that leaves the two
+  options.constraints.base = {0};  // otherwise the tube is removed from the two
   const RunResult r = take_apart(combs_in_tube(), 1, options);
   EXPECT_EQ(r.outcome, Outcome::solved);
   ASSERT_GE(r.plan.disassembly.size(), 2u);
@@ -177,7 +177,7 @@ TEST(Blocking, TurnsWhatIsInTheWayAndLeavesItTurned) {
 TEST(Blocking, KeepsTheConstraints) {
   RunOptions options;
   options.constraints.base = {0};
-  options.constraints.target = 4;  // of six blocks: those above it have to go, and no others
+  options.constraints.target = 4;  // of six blocks: exactly those above it have to be removed
   const RunResult target = take_apart(fake::tube_with_blocks(6), 1, options);
   std::string steps;
   for (const auto& step : target.plan.disassembly)

@@ -50,7 +50,7 @@ TEST(BlockingWithProvers, InseparablePartsAreReported) {
         shapes::assembly_of({tray, shapes::can(1, 0.6, 0.2, opening), shapes::tube(0.4, 0.8, -0.1, 0.1, 48),
                              box({-0.5, -0.5, 0.7}, {0.5, 0.5, 1})});
     RunOptions options;
-    options.constraints.base = {0};  // else it is the tray that leaves the two
+    options.constraints.base = {0};  // otherwise the tray is removed from the two
     RunResult r = take_apart(assembly, 1, options);
     if (opening > 0.8) {
       EXPECT_EQ(r.outcome, Outcome::solved) << "the ring fits through";

@@ -1,4 +1,4 @@
-// Laws of the parts that the planner is made of: graphs, ways until contact, directions.
+// Laws of the planner's geometry: graphs, distances until contact, directions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -102,7 +102,7 @@ TEST(Polyhedron, WayUntilContactIsThatOfBoxes) {
     const auto shrunk = [&](const fake::Box& box, double by) {
       return fake::Box{box.lo + Vec3::Constant(by), box.hi - Vec3::Constant(by)};
     };
-    // Between the ways of boxes a little smaller and of boxes as large.
+    // The result is between the distances of boxes shrunk by the inset and by the inset less the tolerance.
     const double late = way_of_boxes(shrunk(a, inset), shrunk(b, inset), offset, d);
     const double early = way_of_boxes(shrunk(a, inset - tolerance), shrunk(b, inset - tolerance), offset, d);
     EXPECT_LE(got, late + 1e-9);

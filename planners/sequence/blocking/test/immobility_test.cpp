@@ -18,7 +18,7 @@ namespace {
 using fake::shallow;
 using fake::take_apart;
 
-/// Proves what is on its list, with one effort.
+/// Proves the sets on its list inseparable, at one effort.
 class ListedProver final : public ImmobilityProver {
  public:
   ListedProver(ProofEffort effort, std::set<std::vector<PartId>> inseparable, std::size_t parts = 2)
@@ -42,7 +42,7 @@ class ListedProver final : public ImmobilityProver {
   std::size_t parts_;
 };
 
-/// `count` times a block in a casing that it cannot leave along any direction: parts 2 k and 2 k + 1.
+/// `count` pairs of a block and a casing that it cannot leave along any direction: parts 2 k and 2 k + 1.
 Assembly cased_pairs(PartId count) {
   const shapes::Cased held{{0.5, 0.4, 0.3}, 0.02, 0.1, 0.15};
   std::vector<Mesh> parts;

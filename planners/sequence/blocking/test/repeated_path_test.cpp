@@ -31,7 +31,7 @@ Assembly blocks_in_pockets(const std::vector<Vec3>& places, std::size_t closed) 
   return fake::assembly_of(blocks);
 }
 
-/// Finds the path of one part, whatever else it is asked for.
+/// Finds the path of one part, and fails for all others.
 fake::Script path_of(PartId part) {
   return [part](const PathQuery& query, RunContext&) {
     if (query.scene.moving.size() != 1 || query.scene.moving[0].part != part) return fake::outcome(Outcome::exhausted);

@@ -15,14 +15,14 @@ namespace dismantle::fake {
 
 inline PathResult helpless(const PathQuery&, RunContext&) { return outcome(Outcome::exhausted); }
 
-/// As if it touched all that is there, and might find more a little deeper.
+/// Fails as if it had touched all fixed parts, and as if a deeper search might succeed.
 inline PathResult shallow(const PathQuery& query, RunContext&) {
   PathResult r = outcome(query.budget.max_depth == 0 ? Outcome::exhausted : Outcome::depth_limit);
   for (const PlacedPart& p : query.scene.fixed) r.blocked_by.push_back(p.part);
   return r;
 }
 
-/// The plan is valid, whatever else it is.
+/// Runs the planner, and expects that the plan is valid.
 inline RunResult take_apart(const Assembly& assembly, unsigned threads = 1, const RunOptions& options = {},
                             Script planner = &helpless, const std::vector<NamedProver>& provers = {},
                             const BlockingParams& params = {}) {

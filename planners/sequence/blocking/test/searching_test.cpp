@@ -1,4 +1,4 @@
-// Searches for paths on machines without geometry: which are made.
+// Which path searches are made, on machines without geometry.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace dismantle {
 namespace {
 
 TEST(BlockingSearches, DoesNotRepeatSearchesWhileTheirBlockersStand) {
-  // Without geometry all ways are searched for. A chain against the order of trying: a part that is blocked by one that is
-  // still there is not asked again at the same depth.
+  // Without geometry every path is searched for. The chain is opposite to the order of trying. A part whose blocker is
+  // still there is not asked for again at the same depth.
   FakeMachine machine(12);
   for (PartId k = 0; k + 1 < 12; ++k) machine.before[k] = {k + 1};
   BlockingParams params;
@@ -25,8 +25,8 @@ TEST(BlockingSearches, DoesNotRepeatSearchesWhileTheirBlockersStand) {
   EXPECT_GT(run.result.counts.at("postponed"), 0);
 }
 
-/// The oracle may resume the last search of the same part: it had at least the parts in its way that this one has, or
-/// it is the very question that was asked before.
+/// The oracle may resume the last search of the same part: that search had at least the same obstacles, or is the same
+/// question.
 TEST(BlockingSearches, EachMayResumeTheLastOfThePart) {
   Rng rng(5);
   std::size_t again = 0;

@@ -1,4 +1,4 @@
-// Parts that move at once, each in its own way: who is asked for, and what comes of it.
+// Simultaneous motions: which sets of parts are asked for, and what the planner does with the answers.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -11,8 +11,7 @@
 namespace dismantle {
 namespace {
 
-/// Moves nothing unless asked to move parts at once: then the bar aside and the drawer up, as barred_shaft() has them.
-/// Notes the questions.
+/// Finds only the simultaneous motion of barred_shaft(): the bar aside and the drawer up. Records the questions.
 struct AtOnce {
   std::vector<std::vector<PartId>>* leaving = nullptr;
   PathResult operator()(const PathQuery& q, RunContext&) const {

@@ -19,7 +19,7 @@ Result FreeGroup::apply(GroupState& group) {
   return Result::unchanged;
 }
 
-/// Fewest parts first. Moving a group along d or the rest along -d separates them alike, so the smaller one moves.
+/// Fewest parts first. Moving a group along d is equivalent to moving the rest along -d, so the smaller one moves.
 std::vector<FreeGroup::Candidate> FreeGroup::candidates(const GroupState& group) {
   std::vector<Candidate> found;
   const auto candidate = [&](Subassemblies ids, std::size_t direction) {
@@ -46,7 +46,7 @@ std::vector<FreeGroup::Candidate> FreeGroup::candidates(const GroupState& group)
   return found;
 }
 
-/// Partial translations need no second examination: the search for them ends where a group is free, and names it.
+/// After partial translations groups are not examined again: that search ends when a group is free, and names it.
 void FreeGroup::on_group_changed(GroupState& group, const GroupChange& change) {
   if (change.kind != GroupChange::Kind::translated) done_[group] = false;
 }

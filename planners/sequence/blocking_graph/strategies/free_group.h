@@ -1,5 +1,5 @@
 /// Removes the smallest group of subassemblies that can move together in a straight line (Wilson and Latombe 1994: the
-/// strongly connected components of the directional blocking graph). It is taken apart by itself later.
+/// strongly connected components of the directional blocking graph). The group is disassembled separately later.
 #pragma once
 
 #include "blocking_graph/straight_motion.h"

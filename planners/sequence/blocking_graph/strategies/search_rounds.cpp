@@ -18,7 +18,7 @@ bool SearchRounds::search(GroupState& group, SubassemblyId id, unsigned depth, s
   const PartId part = state_.part_of(id);
   state_.show_progress(part);
   const Attempt attempt = question(group, id, depth);
-  // The answer of a search that resumes another one depends on the order of questions, so it is never computed ahead.
+  // The answer of a search that resumes another one depends on the order of questions, so it is never speculative.
   if (context.threads > 1 && !settings_.resume) {
     std::vector<Attempt> ahead{attempt};
     // Two searches per thread keep all threads busy while one search takes long.
@@ -46,7 +46,7 @@ Result SearchRounds::apply(GroupState& group) {
   for (const SubassemblyId s : group.members)
     if (state_.is_single(s) && state_.may_leave(group, {s})) ids.push_back(s);
   if (order_) ids = order_(group, ids);
-  // The last pair needs no other order, so it is searched without a depth limit.
+  // No other part could be tried instead of the last pair, so its searches have no depth limit.
   const bool last_pair = group.is_pair() && settings_.max_depth == 0;
   Round& round = rounds_[group];
   const unsigned depth = last_pair ? 0 : round.depth;

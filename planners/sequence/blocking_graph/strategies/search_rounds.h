@@ -20,7 +20,7 @@ class SearchRounds final : public Strategy {
   /// Sorts the subassemblies of the group that may leave into the order of the searches.
   using Order = std::function<Subassemblies(const GroupState& group, const Subassemblies& ids)>;
 
-  /// `order`: empty: as the group lists them. All references must outlive this.
+  /// `order`: if empty, searches follow the order of the group. All references must outlive this.
   SearchRounds(DisassemblyState& state, PathOracle& oracle, const Settings& settings, Order order = {})
       : state_(state), oracle_(oracle), settings_(settings), order_(std::move(order)) {}
   std::string_view name() const noexcept override { return "search_rounds"; }
@@ -29,10 +29,10 @@ class SearchRounds final : public Strategy {
   void on_group_changed(GroupState& group, const GroupChange& change) override;
 
  private:
-  /// Of one group since its last change.
+  /// Progress in one group.
   struct Round {
     unsigned depth = 1;
-    std::map<PartId, Outcome> last;  ///< of searches to this depth
+    std::map<PartId, Outcome> last;  ///< of the last search for each part, since the last change of the group
   };
   Attempt question(const GroupState& group, SubassemblyId id, unsigned depth) const;
   bool search(GroupState& group, SubassemblyId id, unsigned depth, std::span<const SubassemblyId> next);

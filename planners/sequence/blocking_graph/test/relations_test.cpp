@@ -13,7 +13,7 @@
 namespace dismantle::blocking {
 namespace {
 
-/// Only says what the verifier tolerates.
+/// Only states the verifier's tolerance.
 class TolerantOracle final : public PathOracle {
  public:
   const AttemptResult& attempt(const Attempt&, RunContext&) override { throw std::logic_error("not to be asked"); }

@@ -1,4 +1,4 @@
-// What StraightMotion keeps from one question to the next does not change its answers.
+// Cached data of StraightMotion does not change its answers.
 #include "blocking_graph/straight_motion.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ Assembly any_boxes(Rng& rng) {
   return fake::assembly_of(parts);
 }
 
-/// Parts leave alone and together, and are translated within their group; of any group, whichever was asked about last.
+/// Parts leave alone or as groups, or are translated within their group. Every group of the run is asked about.
 TEST(StraightMotion, DirectionsAreThoseOfOneThatKnowsNothing) {
   Rng rng(8);
   for (int trial = 0; trial < 20; ++trial) {

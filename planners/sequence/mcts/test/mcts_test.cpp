@@ -1,4 +1,4 @@
-// Laws of what is expected, of the tree search, and of the planner on machines whose answers are known.
+// Laws of the estimates, of the tree search, and of the planner on machines with known answers.
 #include "mcts/mcts.h"
 
 #include <gtest/gtest.h>
@@ -127,7 +127,7 @@ TEST(Mcts, SolvesEveryMachineThatHasAnOrder) {
   }
 }
 
-/// The tree is worth its simulations: with one for each decision, which is chance, more searches are made.
+/// Simulations save searches: with one simulation for each decision, which is random choice, more are made.
 TEST(Mcts, MoreSimulationsFewerSearches) {
   std::size_t searches[2] = {0, 0};
   Rng rng(4);

@@ -71,7 +71,7 @@ TEST(Arrangement, HasOneDirectionOfEachCell) {
     expect(a.vertices, 2, static_cast<int>(normals.size()));
     expect(a.arcs, 1, 1);
     expect(a.faces, 0, 0);
-    // Whatever the direction, its cell is known.
+    // Every random direction is in a known cell.
     for (int k = 0; k < 200; ++k)
       EXPECT_TRUE(cells.contains(signs_of(normals, shapes::random_vector(rng, -1, 1).normalized())));
     for (const Vector3d& n : normals) {

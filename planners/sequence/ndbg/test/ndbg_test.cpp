@@ -1,4 +1,4 @@
-// The planner on boxes and prisms whose truth is plain, with a path planner that never finds anything.
+// The planner on boxes and prisms with known answers, with a path planner that never finds anything.
 #include "ndbg/ndbg.h"
 
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ TEST(Ndbg, FindsTheDirectionHoweverTheAssemblyIsTurned) {
   }
 }
 
-/// A tube with slanting ends: the bar leaves along no normal of a face, but where two circles cross.
+/// A slanting tube: the bar leaves along no face normal, but along a direction where two circles cross.
 TEST(Ndbg, FindsWhatOnlyTheArrangementHas) {
   Rng rng(2);
   for (int trial = 0; trial < 12; ++trial) {

@@ -1,4 +1,4 @@
-// The planner on slots with bends, with a path planner that never finds anything: all is done by translations.
+// The planner on slots with bends, with a path planner that never finds anything: only translations are used.
 #include "state_based/state_based.h"
 
 #include <gtest/gtest.h>
@@ -61,7 +61,7 @@ struct Beginning {
         straight(state, oracle, sweep, blocking::directions_of(assembly)),
         states(state, straight, sweep, oracle.tolerance(), {}),
         group(state.waiting().front()) {}
-  /// Only says what the verifier tolerates.
+  /// Only states the verifier's tolerance.
   class Oracle final : public PathOracle {
    public:
     const AttemptResult& attempt(const Attempt&, RunContext&) override { throw std::logic_error("not to be asked"); }
@@ -104,7 +104,7 @@ TEST(StateBased, TranslatesRoundBends) {
   }
 }
 
-/// What the slider has reached while the stopper was there is kept, and gone on from.
+/// States that the slider reached while the stopper was there are kept and extended.
 TEST(StateBased, GoesOnFromTheStatesThatItHas) {
   StateBasedParams params;
   params.order = PartOrder::as_given;
@@ -121,7 +121,7 @@ TEST(StateBased, GoesOnFromTheStatesThatItHas) {
   const std::size_t reached = b.states.size(slider);
   EXPECT_GE(reached, 2u);
   EXPECT_EQ(b.states.kept(), 0u);
-  EXPECT_FALSE(b.states.path_out(b.group, slider));  // nothing has changed: nothing is examined again
+  EXPECT_FALSE(b.states.path_out(b.group, slider));  // no change, so nothing is examined again
   EXPECT_EQ(b.states.size(slider), reached);
   const std::uint64_t again = b.states.kept();
   EXPECT_GT(again, 0u);
@@ -133,7 +133,7 @@ TEST(StateBased, GoesOnFromTheStatesThatItHas) {
   EXPECT_GT(b.states.kept(), again);
 }
 
-/// Each translation of a path out passes all others, and begins where the last one ended.
+/// Each translation of a removal passes all other parts, and begins where the last one ended.
 TEST(StateBased, PathsPassAllOthers) {
   Rng rng(2);
   for (std::int64_t trial = 0; trial < 6; ++trial) {
@@ -152,7 +152,7 @@ TEST(StateBased, PathsPassAllOthers) {
               to{(*path)[k], Eigen::Quaterniond::Identity()};
           EXPECT_TRUE(b.sweep.passes(part, other.id, {}, {from, to}));
         }
-      // Refused, another is found, or none: never the same.
+      // After a refusal another path is found, or none, but never the same one.
       b.states.refuse(id);
       const auto next = b.states.path_out(b.group, id);
       EXPECT_FALSE(next && *next == *path);

@@ -1,4 +1,4 @@
-// Transfers without a search: they begin and end right, move the group as one body, and keep off what lies around.
+// Transfers without a search have the right ends, move the group as one body, and keep clear of other parts.
 #include "../straight.h"
 
 #include <gtest/gtest.h>
@@ -81,8 +81,8 @@ TEST(StraightTransfers, BeginAtTheStartEndAtTheGoalAndMoveTheGroupAsOneBody) {
   }
 }
 
-/// Law: the first candidate lifts the group until it is `kClearance` above all that lies there, and turns and carries
-/// it at no lower height.
+/// Law: the first candidate lifts the group until it is `kClearance` above all other parts, and rotates and carries it
+/// at no lower height.
 TEST(StraightTransfers, FirstOverEverythingOnTheUpperSide) {
   Rng rng(22);
   for (int trial = 0; trial < 100; ++trial) {
@@ -110,7 +110,7 @@ TEST(StraightTransfers, WithNothingAroundGoFromPlaceToPlace) {
   Errand errand(rng, true);
   errand.query.scene.fixed.clear();
   PartBoxes boxes;
-    const StraightTransfers straight(errand.query, kClearance, boxes);
+  const StraightTransfers straight(errand.query, kClearance, boxes);
   ASSERT_TRUE(straight.path(0));
   EXPECT_EQ(straight.path(0)->size(), 3U);
   EXPECT_FALSE(straight.path(1));
