@@ -21,7 +21,7 @@ TEST(BlockingSearches, DoesNotRepeatSearchesWhileTheirBlockersStand) {
   const FakeRun run = run_on(planner, machine, seeded(1));
   expect_lawful(run, machine);
   EXPECT_EQ(run.result.outcome, Outcome::solved);
-  EXPECT_LE(run.asked.size(), 2 * machine.size()) << "once in vain, once when the blocker has left";
+  EXPECT_LE(run.asked.size(), 2 * machine.size()) << "once without success, once when the blocker has left";
   EXPECT_GT(run.result.counts.at("postponed"), 0);
 }
 
