@@ -16,7 +16,7 @@ State at(const std::vector<Pose>& poses) {
   return state;
 }
 
-/// In the order of the published code: forces along z, y, x, both ways, then torques about them.
+/// In the order of the published code: forces along +z, -z, +y, -y, +x, -x, then torques about the same axes.
 std::vector<Action> actions_of(const World& world, const Parameters& parameters) {
   std::vector<Action> actions;
   const auto add = [&](const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
@@ -47,7 +47,7 @@ LevelSearch::LevelSearch(const PathQuery& query, MotionSpace space, const Parame
       bodies_(path::balls_of(*world_)),
       actions_(actions_of(*world_, parameters)),
       ends_({}, 1, 1) {
-  // The verifier allows the initial overlap of a pair everywhere, and so does the published code.
+  // The verifier and the published code allow the initial overlap of a pair everywhere.
   world_->allow_overlap_everywhere();
   begin();
   if (earlier == nullptr) return;
@@ -85,7 +85,7 @@ std::int32_t LevelSearch::add(Node node) {
   return static_cast<std::int32_t>(levels_.nodes.size() - 1);
 }
 
-/// States with the longest path first: one that turns a screw out has passed most states.
+/// The longest path comes first: a path that unscrews a part has the most instants.
 void LevelSearch::next_level() {
   levels_.level = std::exchange(levels_.next, {});
   levels_.at = 0;
@@ -108,7 +108,7 @@ Path LevelSearch::path_to(std::int32_t node) const {
   return path;
 }
 
-/// Is the way to a state that is out valid? Where not, and where the place is known, the world learns it.
+/// Checks the path to a separated state. If it is refused at a known place, that place becomes a contact sample.
 LevelSearch::End LevelSearch::verify(std::int32_t last, PathResult& result) {
   const Path path = path::thin(path_to(last), bodies_, parameters_.thinning);
   const PathCheck check = query_.checker.check(path);
@@ -151,7 +151,7 @@ LevelSearch::End LevelSearch::follow(std::int32_t from, const Action& action, co
   return End::searched;
 }
 
-/// Gives a state the actions that it has not had.
+/// Applies the actions that a state has not had yet.
 LevelSearch::End LevelSearch::expand(std::int32_t from, PathResult& result) {
   path::StateSet passed(bodies_, parameters_.similarity_translation, parameters_.similarity_rotation);
   for (const auto& instant : path_to(from)) passed.add(at(instant), 0);
@@ -162,7 +162,7 @@ LevelSearch::End LevelSearch::expand(std::int32_t from, PathResult& result) {
     if (end != End::refused) continue;
     if (refused_ > static_cast<std::uint64_t>(parameters_.max_refusals)) return end;
     if (levels_.samples.size() == known) continue;
-    begin();  // what was found so far may have leaked through the same place
+    begin();  // earlier paths may have penetrated at the same place, so the search restarts
     return End::searched;
   }
   ++expanded_;

@@ -1,4 +1,4 @@
-/// Algorithm 1 in one motion space, as the code published with the paper runs it.
+/// Algorithm 1 in one motion space, as implemented in the code published with the paper.
 #pragma once
 
 #include <cstdint>
@@ -18,41 +18,40 @@ struct Node {
   State state;
   std::int32_t parent = -1;
   unsigned depth = 0;        ///< actions from the start
-  Path way{};                ///< instants after the parent's, this one's last
-  std::size_t instants = 0;  ///< from the start
+  Path way{};                ///< instants after the parent's, up to this state's
+  std::size_t instants = 0;  ///< number of instants from the start
 };
 
-/// What a search in one motion space has reached.
+/// The states that a search in one motion space has reached.
 struct Levels {
   std::vector<Node> nodes;          ///< parents before their children
-  std::vector<std::int32_t> level;  ///< of the current depth, in the order in which they are searched from
-  std::vector<std::int32_t> next;   ///< children of those
-  std::size_t at = 0;               ///< the first of `level` that has not been given all actions
-  std::size_t action = 0;           ///< the next that it is given
+  std::vector<std::int32_t> level;  ///< states of the current depth, in the order of expansion
+  std::vector<std::int32_t> next;   ///< children of the states in `level`
+  std::size_t at = 0;               ///< index of the first state in `level` that has not had all actions
+  std::size_t action = 0;           ///< index of that state's next action
   std::vector<path::ContactSample> samples;
-  std::uint64_t work = 0;  ///< simulated steps that led here
+  std::uint64_t work = 0;  ///< simulated steps spent so far
 };
 
-/// The tree grows level by level. From a state each action is applied, one planning time step after the other and each
-/// from rest, until the part is out or similar to a state that it passed on its own way from the start. Where the run
-/// ends is a state of the next level.
+/// The tree grows level by level. Each action is applied to a state in planning time steps, each from rest, until the part
+/// is separated or similar to a state on its own path from the start. The end of the run is a state of the next level.
 class LevelSearch {
  public:
   enum class End { searched, solved, paused, stopped, refused };
 
-  /// `earlier`: null, or what a search among the same parts has reached.
+  /// `earlier`: null, or the levels of an earlier search among the same parts.
   LevelSearch(const PathQuery& query, MotionSpace space, const Parameters& parameters, RunContext& context,
               const Levels* earlier);
 
-  /// Applies all actions to all states of depth below `depth`. `steps_left`: counted down; null = no limit. Pauses
-  /// between two states after `pause_after` simulated steps of this call; 0 = never.
+  /// Applies all actions to all states of depth below `depth`. Counts `steps_left` down; null: no limit. Pauses between
+  /// two states after `pause_after` simulated steps of this call; 0: never.
   End run(unsigned depth, const Deadline& deadline, std::uint64_t* steps_left, std::uint64_t pause_after,
           PathResult& result);
-  /// All states have been given all actions.
+  /// True if all states have had all actions.
   bool exhausted() const { return levels_.at == levels_.level.size() && levels_.next.empty(); }
   bool starts_out() { return world_->separated(levels_.nodes.front().state); }
   const Levels& levels() const { return levels_; }
-  /// Counts, contacts, and the furthest state.
+  /// Sets statistics, blocking parts and the furthest pose.
   void report(PathResult& result) const;
 
  private:
@@ -72,7 +71,7 @@ class LevelSearch {
   std::unique_ptr<World> world_;
   std::vector<path::Ball> bodies_;
   std::vector<Action> actions_;
-  path::StateSet ends_;  ///< of the runs so far
+  path::StateSet ends_;  ///< ends of the runs so far
   Levels levels_;
   Deadline deadline_;
   std::uint64_t* steps_left_ = nullptr;

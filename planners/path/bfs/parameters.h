@@ -7,7 +7,7 @@ namespace dismantle::bfs {
 
 enum class Variant {
   shared,     ///< the search that bfs shares with contact_search
-  published,  ///< Algorithm 1 as the code published with the paper runs it
+  published,  ///< Algorithm 1 as implemented in the code published with the paper
 };
 
 enum class Order { first_come, longest_first };
@@ -35,14 +35,15 @@ struct Parameters : push::SearchParameters {
     s.add("torque", &Parameters::torque,
           {.unit = "N unit",
            .min = 0,
-           .doc = "Torque of each action under `variant: published`. 0: `force` times the part's radius."});
+           .doc = "Torque of each action with `variant: published`. 0: `force` times the part's radius."});
     s.add("distinct_translation", &Parameters::distinct_translation,
           {.unit = "unit",
            .min = 0,
            .min_open = true,
-           .doc = "Under `variant: published`: ends of two runs that are nearer than this are one state."});
+           .doc = "With `variant: published`: the ends of two runs count as one state if they are nearer than this and differ "
+                  "in rotation by less than `distinct_rotation`."});
     s.add("distinct_rotation", &Parameters::distinct_rotation,
-          {.unit = "rad", .min = 0, .max = 3.2, .min_open = true, .doc = "... if turned by less than this, too."});
+          {.unit = "rad", .min = 0, .max = 3.2, .min_open = true, .doc = "Rotation below which the ends of two runs count as one state; see `distinct_translation`."});
     push::describe_effort(s);
   }
 

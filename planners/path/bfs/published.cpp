@@ -38,7 +38,7 @@ std::uint64_t PublishedSearch::steps() const {
   return steps;
 }
 
-/// Nothing where the search goes on.
+/// Returns nothing if the search continues.
 std::optional<SearchStatus> PublishedSearch::run_level(MotionSpace space, const Deadline& end,
                                                        std::uint64_t pause_after) {
   LevelSearch& search = this->search(space);

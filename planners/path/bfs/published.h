@@ -1,4 +1,4 @@
-/// Algorithm 1 as the code published with the paper runs it, by translation and with rotation.
+/// Algorithm 1 as implemented in the code published with the paper, by translation and with rotation.
 #pragma once
 
 #include <memory>
@@ -8,14 +8,14 @@
 
 namespace dismantle::bfs {
 
-/// What an unsuccessful search has reached, for a later one among the same fixed parts.
+/// The levels of an unsuccessful search, for a later search among the same fixed parts.
 class ReachedLevels final : public SearchState {
  public:
   std::vector<PartId> fixed;  ///< ascending
   std::optional<Levels> translation, rigid;
 };
 
-/// `motion: auto`: level by level first by translation, then with rotation, which begins at the second level.
+/// With `motion: auto`, searches each level by translation first. From the second level on, rotation follows.
 class PublishedSearch final : public PathSearch {
  public:
   PublishedSearch(const PathQuery& query, const Parameters& parameters, RunContext& context);

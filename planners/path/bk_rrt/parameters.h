@@ -31,14 +31,13 @@ struct Parameters {
           {.unit = "s",
            .min = 1e-3,
            .max = 10,
-           .doc = "Planning time step: duration of a random action (table 6). Longer: larger extensions, of which more "
-                  "end at "
-                  "an obstacle."});
+           .doc = "Planning time step: duration of a random action (table 6). Longer: larger extensions, but more of "
+                  "them end at an obstacle."});
     s.add("force", &Parameters::force,
           {.unit = "N",
            .min = 0,
            .min_open = true,
-           .doc = "Force of each action; torques are this times the part's radius (table 6)."});
+           .doc = "Force of each action. The torque is the force times the part's radius (table 6)."});
     s.add_choice<Actions>(
         "actions", &Parameters::actions,
         {{"sphere", Actions::sphere, "any direction, uniformly; with rotation any wrench of that size"},

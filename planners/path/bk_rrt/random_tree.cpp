@@ -26,7 +26,7 @@ RandomTree::RandomTree(const PathQuery& query, MotionSpace motion, const Paramet
       world_(query.simulator.world(query.assembly, query.prepared, query.scene, motion)),
       sees_contacts_(query.simulator.capabilities().contacts) {
   const sampling::Surroundings around(query, *world_);
-  // The displacement of the first moving part represents that of all: distances between nodes are distances of it.
+  // The displacement of the first moving part represents all parts in distances between nodes.
   const sampling::Mover first{query.scene.moving[0].pose * world_->center(0), world_->radius(0)};
   space_ = std::make_unique<sampling::DisplacementSpace>(first, motion, around.bounds);
   bodies_ = path::balls_of(*world_);
@@ -111,7 +111,7 @@ bool RandomTree::find_verified_path(std::uint32_t node, PathResult& result) {
     discard(node);
     return false;
   }
-  // Thinning changes no pose, so the one after the fault is among those of the whole path; its node is at fault.
+  // Thinning changes no pose, so the pose after the fault is in the whole path; its node is at fault.
   const auto& after = path[std::min(shown.last.instant + 1, path.size() - 1)];
   std::size_t k = 1;
   while (k + 1 < full.size() && !same(full[k], after)) ++k;

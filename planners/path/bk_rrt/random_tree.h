@@ -18,8 +18,8 @@ class RandomTree {
  public:
   RandomTree(const PathQuery& query, MotionSpace motion, const Parameters& parameters, const Rng& rng);
 
-  /// One iteration: random state, nearest node, random action, simulation. True when the checker accepts a path; then
-  /// `result` holds it.
+  /// One iteration: random state, nearest node, random action, simulation. True when the checker accepts a path;
+  /// `result` then holds it.
   bool iterate(PathResult& result);
 
   bool starts_separated();
@@ -28,7 +28,7 @@ class RandomTree {
   std::size_t size() const { return nodes_.size(); }
   double farthest_distance() const { return farthest_distance_; }  ///< of the centre, assembly units
   std::vector<Pose> farthest() const;
-  /// Number of blocked actions that touched each fixed part at their end.
+  /// By fixed part: number of blocked actions that touched it at their end.
   const std::map<PartId, std::uint64_t>& touched() const { return touched_; }
 
  private:
@@ -38,7 +38,7 @@ class RandomTree {
     StateType displacement;  ///< of the first moving part
     std::uint32_t parent = 0;
     unsigned depth = 0;
-    Path path;  ///< from the parent: its state excluded, this one included
+    Path path;  ///< from the parent's state (excluded) to this one (included)
   };
   std::uint32_t add(State state, std::uint32_t parent, Path path);
   StateType displacement_of(const State& state) const;

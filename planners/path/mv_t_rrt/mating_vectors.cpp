@@ -14,7 +14,7 @@ namespace {
 
 using geometry::FaceAxis;
 
-/// Sums areas by direction, opposite directions together. Only equal normals are merged: those of one flat face.
+/// Sums areas by direction; opposite directions count as one. Merges only equal normals, as those of one flat face.
 void add_faces(const Mesh& mesh, const Eigen::Quaterniond& q, std::vector<FaceAxis>& faces) {
   const double grid = std::sqrt(geometry::kRounding);  // unit vectors that round to the same multiples of it are equal
   std::map<std::tuple<long, long, long>, FaceAxis> by_direction;
@@ -45,7 +45,7 @@ std::vector<Eigen::Vector3d> mating_vectors(const PathQuery& query, double reach
       add_faces(*query.assembly.parts[s.part].mesh, s.pose.q, faces);
   geometry::sort_by_area(faces);
 
-  // Normals are merged into those of more area, then sorted by the sums.
+  // Merges normals into those with more area, then sorts by the sums.
   std::vector<FaceAxis> distinct;
   for (const FaceAxis& f : faces) geometry::add_face(distinct, f, std::cos(merge_angle));
   geometry::sort_by_area(distinct);

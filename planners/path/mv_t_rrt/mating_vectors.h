@@ -10,8 +10,8 @@
 namespace dismantle::mv_t_rrt {
 
 /// Distinct face normals and their opposites, of the moving parts and of the fixed parts whose boxes are within `reach`
-/// (assembly units) of them; unit vectors, world. A normal closer than `merge_angle` (rad) to one with more area, or to
-/// its opposite, is merged into that one. Sorted by area, largest first; at most `most`.
+/// (assembly units) of them; unit vectors, world. A normal within `merge_angle` (rad) of a normal with more area, or of
+/// its opposite, is merged into it. Sorted by area, largest first; at most `most`.
 std::vector<Eigen::Vector3d> mating_vectors(const PathQuery& query, double reach, double merge_angle, std::size_t most);
 
 }  // namespace dismantle::mv_t_rrt

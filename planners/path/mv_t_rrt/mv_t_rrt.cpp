@@ -20,16 +20,14 @@ struct Parameters : sampling::TreeParameters {
           {.unit = "unit",
            .min = 0,
            .doc = "Fixed parts whose boxes are within this distance of the moving part's box are its neighbours. "
-                  "Larger: more "
-                  "directions are tried."});
+                  "Larger: more directions are tried."});
     s.add("merge_angle", &Parameters::merge_angle,
           {.unit = "rad",
            .min = 0,
            .max = 1.5,
-           .doc = "Face normals that differ by less are one mating vector. Larger: fewer directions, of which some are "
-                  "inexact."});
+           .doc = "Face normals that differ by less are one mating vector. Larger: fewer directions, some of them inexact."});
     s.add("max_vectors", &Parameters::max_vectors,
-          {.unit = "1", .min = 0, .doc = "Mating vectors that are tried at most, those of the largest faces first."});
+          {.unit = "1", .min = 0, .doc = "Maximum number of mating vectors tried, those of the largest faces first."});
   }
 };
 

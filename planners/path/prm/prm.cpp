@@ -21,20 +21,19 @@ struct Parameters : sampling::SpaceParameters {
           {.unit = "1",
            .min = 1,
            .max = 1e6,
-           .doc = "Disassembled states that the roadmap begins with: the six nearest exits, the others are random."});
+           .doc = "Number of disassembled states that the roadmap begins with: the six nearest exits, then random states."});
     s.add("neighbours", &Parameters::neighbours,
           {.unit = "1",
            .min = 1,
            .max = 1000,
-           .doc = "Nearest milestones to which connections from a new one are tried. More: paths are found with fewer "
-                  "milestones, each of which costs more state checks."});
+           .doc = "Number of nearest milestones to which connections from a new one are tried. More: paths are found with "
+                  "fewer milestones, but each milestone costs more state checks."});
     s.add("expansion", &Parameters::expansion,
           {.unit = "1",
            .min = 0,
            .max = 1,
            .doc = "Probability of expanding a milestone whose motions were mostly blocked, instead of sampling. "
-                  "Larger: more "
-                  "work in narrow passages."});
+                  "Larger: more work in narrow passages."});
     s.add("gaussian", &Parameters::gaussian,
           {.unit = "1",
            .min = 0,

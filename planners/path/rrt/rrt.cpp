@@ -16,7 +16,7 @@ struct Parameters : sampling::TreeParameters {
   }
 };
 
-/// One goal for the whole search (section 6.1), grown to from the node nearest to it.
+/// One goal for the whole search (section 6.1). The node nearest to the goal is extended towards it.
 class OneGoal final : public TargetRule {
  public:
   OneGoal(SamplingProblem& problem, Rng rng) : goal_(problem.draw_disassembled(rng)) {}
@@ -24,7 +24,7 @@ class OneGoal final : public TargetRule {
   std::optional<Target> target(TargetTree& tree, Rng&) override {
     if (!goal_) return std::nullopt;
     const std::uint32_t node = tree.nearest(*goal_);
-    // The same extension again would end at the same place.
+    // Repeating an extension would end at the same state.
     if (!tried_.insert(node).second) return std::nullopt;
     return Target{node, *goal_};
   }

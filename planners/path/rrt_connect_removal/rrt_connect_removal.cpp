@@ -19,7 +19,7 @@ struct Parameters : sampling::SpaceParameters {
         {.unit = "1",
          .min = 1,
          .max = 1e6,
-         .doc = "Disassembled states that the second tree grows from: the six nearest exits, the others are random."});
+         .doc = "Number of disassembled states that the second tree grows from: the six nearest exits, then random states."});
     sampling::describe_space(s, "Longest extension of a tree.");
   }
 };

@@ -34,7 +34,7 @@ Forest::Forest(const PathQuery& query, MotionSpace motion, const Parameters& par
   const Aabb moving = path::box_of(query.assembly, query.scene.moving);
   bounds_ = path::box_of(query.assembly, query.scene.fixed);
   bounds_.extend(moving);
-  bounds_.inflate(0.6 * moving.size().norm());  // the part fits beside the others, however it is turned
+  bounds_.inflate(0.6 * moving.size().norm());  // room for the part beside the others in any orientation
   map_.add_tree(node_of(world_->initial_state()));
 }
 
@@ -80,7 +80,7 @@ void Forest::add_tunnel_tree(const std::function<bool()>& stop) {
     const double clearance = parameters_.free_penetration * query_.tolerance;
     world_->project_to_clearance(state, clearance);
     if (world_->penetration(state) > clearance) continue;
-    // A pose that was retracted out of the tunnel is worth no more than any other.
+    // A pose retracted out of the tunnel has no advantage over a random one.
     const Pose moved = state.bodies[0].pose * start_[0].inverse();
     if ((moved * match.on_moving - match.on_fixed).norm() > match.reach) continue;
     Roadmap::Node node = node_of(state);
@@ -217,7 +217,7 @@ bool Forest::iterate(PathResult& result, const std::function<bool()>& stop) {
     from = choose_node(tree);
     range = parameters_.node_spacing * parameters_.local_range_min *
             std::pow(parameters_.local_range_max / parameters_.local_range_min, rng_.uniform());
-    // Translates, turns, or both.
+    // Translates, rotates, or both.
     target = target_of(from);
     const auto kind = rigid_ ? rng_.below(3) : 0;
     if (kind != 1) target.center += range * random_vector().normalized();

@@ -21,32 +21,32 @@ namespace dismantle::tunnel_forest {
 
 class Forest {
  public:
-  /// `halted`: true when the time is over or the run is cancelled; work without simulation calls it as well.
+  /// `halted`: true after the deadline or when the run is cancelled. Work without simulation calls it, too.
   Forest(const PathQuery& query, MotionSpace motion, const Parameters& parameters, const Rng& rng,
          std::function<bool()> halted);
 
   bool starts_separated() { return world_->separated(map_.node(0).state); }
-  /// One extension and the joins that follow from it. True when the checker accepts a path; then `result` holds it.
-  /// `stop` is called before each push; once it returns true, this returns soon.
+  /// One extension and the joins from its new node. True when the checker accepts a path; `result` then holds it.
+  /// Calls `stop` before each push, and returns soon after `stop` returns true.
   bool iterate(PathResult& result, const std::function<bool()>& stop);
-  /// From now on initial overlaps are allowed everywhere, as the checker does (World::allow_overlap_everywhere). Nodes
-  /// stay as they are.
+  /// Allows initial overlaps everywhere from now on, as the checker does (World::allow_overlap_everywhere). Keeps all
+  /// nodes.
   void allow_overlap_everywhere() { world_->allow_overlap_everywhere(); }
 
   std::uint64_t steps() const { return local_planner_.steps(); }  ///< simulated so far
-  std::uint64_t state_checks() const { return state_checks_; }    ///< states that were measured without simulation
+  std::uint64_t state_checks() const { return state_checks_; }    ///< states measured without simulation
   std::uint64_t refused() const { return refused_; }
   std::uint64_t tunnels() const { return tunnels_; }
   std::size_t size() const { return map_.size(); }
   std::size_t cells() const { return map_.cells(); }  ///< number of explored cells of the space
   double farthest_distance() const { return farthest_distance_; }
   std::vector<Pose> farthest() const { return path::poses_of(map_.node(farthest_).state); }
-  /// Number of blocked trajectories that touched each fixed part where they ended.
+  /// By fixed part: number of blocked trajectories that touched it where they ended.
   const std::map<PartId, std::uint64_t>& touched() const { return touched_; }
 
  private:
   using Index = Roadmap::Index;
-  /// Centre of the first moving part and its turn since the start.
+  /// Centre of the first moving part and its rotation since the start.
   struct Target {
     Eigen::Vector3d center;
     Eigen::Quaterniond turn;
@@ -64,7 +64,7 @@ class Forest {
   Eigen::Vector3d random_vector();
   Target around(const Target& target, double size);
   Target anywhere();
-  /// Adds the nodes of a trajectory from `from`; geometry::kNoIndex when it ended where it began.
+  /// Adds the nodes of a trajectory from `from` and returns the last; geometry::kNoIndex if the bodies hardly moved.
   Index add_trajectory(Index from, const LocalPlanner::Trajectory& trajectory);
   void try_joins(Index n, const std::function<bool()>& stop);
   bool join(Index n, Index to, const std::function<bool()>& stop);
@@ -83,8 +83,8 @@ class Forest {
   std::unique_ptr<World> world_;
   bool rigid_, sees_contacts_;
   LocalPlanner local_planner_;
-  Eigen::Vector3d center_;  ///< of the first moving part, where it starts
-  double arm_ = 0;          ///< length that stands for a turn of 1 rad
+  Eigen::Vector3d center_;  ///< of the first moving part at the start
+  double arm_ = 0;          ///< length equivalent to a rotation of 1 rad
   Aabb bounds_;             ///< of the centre
   std::vector<Pose> start_;
   Roadmap map_;

@@ -1,4 +1,4 @@
-// Makes a path that the checker accepts of a tree that holds the start and a separated state.
+// Turns a tree that holds the start and a separated state into a path that the checker accepts.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,8 +18,8 @@ bool Forest::is_free(const std::vector<Pose>& poses) {
   return world_->penetration(state) <= parameters_.free_penetration * query_.tolerance;
 }
 
-/// Replaces the path between two random instants by the screw motion that joins them, where that motion is free and at
-/// least a tenth shorter.
+/// Replaces the path between two random instants with the screw motion between them if that is free and at least a
+/// tenth shorter.
 Path Forest::shortcut(const Path& path) {
   Path best = path;
   const auto direct = [&](std::size_t a, std::size_t b, Path& between) {
@@ -47,8 +47,8 @@ Path Forest::shortcut(const Path& path) {
   return path::thin(best, local_planner_.bodies(), parameters_.thinning);
 }
 
-/// Moves each pose of a path off contact where there is room. A simulator samples contact, so a part that slides along
-/// an obstacle cuts it a little between the samples.
+/// Moves each pose of a path away from contact where there is room. Simulators sample contact, so a part that slides
+/// along an obstacle penetrates slightly between the samples.
 Path Forest::retracted(const Path& path) {
   const double spacing = 2 * parameters_.check_spacing * parameters_.node_spacing;
   Path dense{path.front()};
@@ -61,7 +61,7 @@ Path Forest::retracted(const Path& path) {
       for (std::size_t b = 0; b < before.size(); ++b)
         state.bodies[b].pose = screw_interpolate(before[b], path[k][b], static_cast<double>(i) / pieces);
       ++state_checks_;
-      // The end is separated and has to remain so.
+      // The last pose is separated and must remain so.
       if (i < pieces || k + 1 < path.size()) world_->project_to_clearance(state, parameters_.clearance);
       dense.push_back(path::poses_of(state));
     }
@@ -69,8 +69,8 @@ Path Forest::retracted(const Path& path) {
   return path::thin(dense, local_planner_.bodies(), parameters_.thinning);
 }
 
-/// Shows the retracted path to the checker; again after the checker has named a place where it cuts. The accepted path
-/// goes to `result`.
+/// Shows the retracted path to the checker. Retracts and shows it again after the checker has reported where it
+/// penetrates. The accepted path goes to `result`.
 path::Shown Forest::check_forms(const Path& path, unsigned depth, PathResult& result) {
   Path form = path;
   return path::show_forms(
@@ -109,7 +109,7 @@ bool Forest::find_verified_path(PathResult& result) {
     if (!shown.accepted) shown = check_forms(thinned, depth, result);
     if (shown.accepted) return true;
     if (halted_()) return false;
-    // Retraction moves poses only a little, so the edge that comes nearest to the reported place is at fault.
+    // Retraction moves poses only slightly, so the edge nearest to the reported place is at fault.
     std::size_t at_fault = edges.size() - 1;
     if (shown.last.has_witness) {
       const auto& place = shown.path[std::min(shown.last.instant, shown.path.size() - 1)];

@@ -47,14 +47,14 @@ SearchStatus ForestSearch::run(const Budget& portion) {
   return over() || used() >= most_steps_ ? status_of(result_.outcome()) : SearchStatus::paused;
 }
 
-/// Stops at the end of the turn or of the portion. The end of a portion interrupts no extension and does not end the
-/// turn, so that the lengths of portions do not change the trees.
+/// Stops at the end of the turn or of the portion. The end of a portion neither interrupts an extension nor ends the
+/// turn, so the lengths of portions do not change the trees.
 bool ForestSearch::continue_turn(GrowingForest& growing) {
   if (!turn_) turn_ = Turn{used(), 0};
   const std::uint64_t end = turn_->begin + growing.turn;
   const auto stop = [&] { return used() >= end || used() >= most_steps_ || stopped(); };
   bool solved = false;
-  // Where nothing can move, extensions take no time steps, so their number is limited as well.
+  // If nothing can move, extensions take no time steps, so their number is limited as well.
   while (!solved && !stop() && !given_up() && turn_->extensions < growing.turn) {
     if (portion_over()) return false;
     solved = growing.forest->iterate(result_, stop);

@@ -1,4 +1,4 @@
-/// The forests of one query, one in R3 and one in SE(3), which grow in turns.
+/// The forests of one query: one in R3 and one in SE(3). They grow in turns.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace dismantle::tunnel_forest {
 
-/// What the simulator has to be capable of.
+/// Capabilities that the simulator needs.
 inline constexpr Capabilities kNeeds{.dynamics = true, .distance = true};
 
 class ForestSearch final : public PathSearch {
  public:
-  /// All arguments outlive this. Ends with `depth_limit` when `most_steps` were simulated; with `exhausted` when the
-  /// checker has refused too many paths or no forest explores new space.
+  /// All arguments must outlive this object. Ends with `depth_limit` after `most_steps` simulated steps; with
+  /// `exhausted` when the checker has refused too many paths or no forest explores new space.
   ForestSearch(const Parameters& parameters, const PathQuery& query, RunContext& context, std::uint64_t most_steps);
 
   SearchStatus run(const Budget& portion) override;
@@ -29,7 +29,7 @@ class ForestSearch final : public PathSearch {
     std::unique_ptr<Forest> forest;
     std::uint64_t turn;  ///< steps of the next turn
     std::size_t cells = 0;
-    std::int64_t barren_turns = 0;  ///< turns in a row without new space
+    std::int64_t barren_turns = 0;  ///< consecutive turns without new space
     bool overlap_everywhere = false;
   };
 
@@ -56,7 +56,7 @@ class ForestSearch final : public PathSearch {
   Deadline deadline_;
   std::vector<GrowingForest> forests_;
   std::size_t current_ = 0;   ///< the forest whose turn it is
-  std::optional<Turn> turn_;  ///< the turn that has begun and not ended
+  std::optional<Turn> turn_;  ///< the turn in progress
   const std::uint64_t most_steps_;
   PortionEnd portion_;
   PathResult result_;

@@ -31,10 +31,10 @@ LocalPlanner::Trajectory LocalPlanner::steer(const State& from, const std::vecto
   trajectory.end = from;
   double left = distance(path::poses_of(trajectory.end), target), best = left;
   std::int64_t idle = 0;
-  for (int push = 0; push < 1000; ++push) {  // a bound for bodies that creep
+  for (int push = 0; push < 1000; ++push) {  // limits bodies that creep
     trajectory.arrived = left < arrival_;
     if (trajectory.arrived || trajectory.length >= range || stop()) return trajectory;
-    // Speed is proportional to force, so a weaker push near the target travels just the remaining distance.
+    // Speed is proportional to force, so a push near the target is weakened to travel just the remaining distance.
     const double share = free_push_ > 0 ? std::min(1.0, left / free_push_) : 1.0;
     Action action;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -62,8 +62,8 @@ LocalPlanner::Trajectory LocalPlanner::steer(const State& from, const std::vecto
     trajectory.length += report.travel;
     const double was = left;
     left = distance(path::poses_of(trajectory.end), target);
-    // A push that leads straight to the target met no obstacle. Bodies that are pushed out of a penetration jump
-    // further than any push leads, so travel alone does not tell.
+    // A push straight towards the target met no obstacle. Travel alone does not show that, because bodies in
+    // penetration are thrown out further than any push moves them.
     if (share == 1 && was - left > (1 - stall_) * report.travel) free_push_ = std::max(free_push_, report.travel);
     const double free = share * free_push_;
     if (report.travel < stall_ * free) {

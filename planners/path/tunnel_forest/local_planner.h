@@ -1,4 +1,4 @@
-/// Moving towards a target in a simulator, along the obstacles in between.
+/// Moves bodies towards a target in a simulator; they slide along obstacles in between.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 
 namespace dismantle::tunnel_forest {
 
-/// Pushes the bodies towards given poses and aims again after each push. Contact does the retraction: where a straight
-/// motion would penetrate, the simulator lets the bodies slide.
+/// Pushes the bodies towards given poses and aims again after each push. Contact retracts the bodies: where a straight
+/// motion would penetrate, they slide in the simulator.
 class LocalPlanner {
  public:
-  /// `arrival`: distance (assembly units) at which a target is reached. A direct motion over it penetrates by half of
-  /// it at most.
+  /// `arrival`: a target counts as reached at this distance (assembly units). A direct motion over that distance
+  /// penetrates by at most half of it.
   LocalPlanner(World& world, const Parameters& parameters, double arrival);
 
   struct Trajectory {
     State end;
     Path path;          ///< begin excluded, end included
-    double length = 0;  ///< assembly units; bound for the point that moves most
+    double length = 0;  ///< assembly units; no point moves further
     bool arrived = false;
     bool blocked = false;  ///< by an obstacle
   };
@@ -30,7 +30,7 @@ class LocalPlanner {
   /// which is called before each push, returns true.
   Trajectory steer(const State& from, const std::vector<Pose>& target, double range, const std::function<bool()>& stop);
 
-  /// Largest displacement of a body: that of its centre plus radius times angle, which bounds that of its points.
+  /// Largest displacement of a body: that of its centre plus radius times angle, a bound for all its points.
   double distance(const std::vector<Pose>& from, const std::vector<Pose>& to) const;
   std::uint64_t steps() const { return steps_; }  ///< simulated so far
   const std::vector<path::Ball>& bodies() const { return bodies_; }
@@ -39,7 +39,7 @@ class LocalPlanner {
   World& world_;
   double force_, push_time_, stall_, arrival_;
   std::int64_t idle_pushes_;
-  double free_push_ = 0;  ///< longest travel of a full push without obstacles; 0: there was none yet
+  double free_push_ = 0;  ///< longest travel of a full push without obstacles so far; 0: none yet
   std::vector<path::Ball> bodies_;
   std::uint64_t steps_ = 0;
 };

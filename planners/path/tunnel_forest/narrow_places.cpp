@@ -113,7 +113,7 @@ TunnelPoses::TunnelPoses(NarrowPlaces moving, NarrowPlaces fixed, double width)
   };
   keep_narrow(moving_.gaps, fixed_.bars);
   keep_narrow(fixed_.gaps, moving_.bars);
-  // Puzzles of two equal pieces consist of the first kind, so it is drawn as often as the other two together.
+  // Puzzles of two equal parts need the first kind, so it is drawn as often as the other two together.
   if (!moving_.gaps.empty() && !fixed_.gaps.empty()) kinds_.insert(kinds_.end(), 2, Kind::gap_in_gap);
   if (!moving_.bars.empty() && !fixed_.gaps.empty()) kinds_.push_back(Kind::bar_in_gap);
   if (!moving_.gaps.empty() && !fixed_.bars.empty()) kinds_.push_back(Kind::gap_on_bar);
@@ -125,8 +125,8 @@ TunnelPoses::Match TunnelPoses::draw(Rng& rng, bool turning) const {
   };
   const Kind kind = kinds_[static_cast<std::size_t>(rng.below(kinds_.size()))];
   const NarrowPlace *m = nullptr, *s = nullptr;
-  // The bar should fit into the gap, or be a little wider: retraction finds where it fits. If 20 draws find no such
-  // pair, the last one is taken.
+  // The bar should fit into the gap or be a little wider; retraction then finds where it fits. If 20 draws find no
+  // such pair, the last pair is used.
   for (int k = 0; k < 20; ++k) {
     m = &any(kind == Kind::bar_in_gap ? moving_.bars : moving_.gaps);
     s = &any(kind == Kind::gap_on_bar ? fixed_.bars : fixed_.gaps);
@@ -136,7 +136,7 @@ TunnelPoses::Match TunnelPoses::draw(Rng& rng, bool turning) const {
   }
   Match match;
   if (turning) match.displacement.q = random_turn(rng);
-  if (turning && kind != Kind::gap_in_gap) {  // the chords are parallel, the turn about them is random
+  if (turning && kind != Kind::gap_in_gap) {  // the chords are parallel, with a random rotation about them
     const Eigen::Vector3d axis = match.displacement.q * m->axis;
     match.displacement.q = (Eigen::Quaterniond::FromTwoVectors(axis, s->axis) * match.displacement.q).normalized();
   }

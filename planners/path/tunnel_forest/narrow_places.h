@@ -1,4 +1,4 @@
-/// Places where a body is thin or nearly touches itself. In the narrow passages of a puzzle such places meet.
+/// Places where a body is thin or nearly touches itself. Such places meet in the narrow passages of a puzzle.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,23 +12,23 @@
 
 namespace dismantle::tunnel_forest {
 
-/// A chord that stands on the surface and ends at a surface that faces it.
+/// A chord from the surface, along its normal, to a surface that faces it.
 struct NarrowPlace {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit, along the chord
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit vector along the chord
   double half_width = 0;                            ///< assembly units
 };
 
 struct NarrowPlaces {
-  std::vector<NarrowPlace> gaps;  ///< chord outside of the material
-  std::vector<NarrowPlace> bars;  ///< chord inside
+  std::vector<NarrowPlace> gaps;  ///< chords outside the material
+  std::vector<NarrowPlace> bars;  ///< chords inside
 };
 
-/// Chords at `samples` points drawn uniformly from the surface, in the frame of the mesh. `mesh` is closed.
+/// Chords at `samples` points drawn uniformly from the surface, in the frame of the mesh. `mesh` must be closed.
 NarrowPlaces find_narrow_places(const Mesh& mesh, std::size_t samples, Rng& rng);
 
-/// Draws displacements of the moving body that bring one of its narrow places to one of the fixed body: gap into gap,
-/// bar into gap, gap around bar. Only gaps that are narrow for the bars of the other body count.
+/// Draws displacements that bring a narrow place of the moving body to one of the fixed body: gap into gap, bar into
+/// gap, gap around bar. Only gaps that are narrow compared with the other body's bars count.
 class TunnelPoses {
  public:
   /// `width`: the widest gap that counts, in median bar widths of the other body.
@@ -39,7 +39,7 @@ class TunnelPoses {
     Pose displacement;          ///< of the moving body
     Eigen::Vector3d on_moving;  ///< before the displacement
     Eigen::Vector3d on_fixed;   ///< displacement * on_moving
-    double reach = 0;           ///< largest distance of the two that is still within the tunnel
+    double reach = 0;           ///< largest distance between the two points that is still within the tunnel
   };
   /// Requires !empty().
   Match draw(Rng& rng, bool turning = true) const;

@@ -54,39 +54,39 @@ struct Parameters {
           {.unit = "N",
            .min = 0,
            .min_open = true,
-           .doc = "Force of a push; torques are this times the part's torque arm."});
+           .doc = "Force of a push. The torque is the force times the part's torque arm."});
     s.add(
         "push_time", &Parameters::push_time,
         {.unit = "s",
          .min = 1e-3,
          .max = 10,
-         .doc = "Length of a push. The next one is aimed at the target again. Shorter: the part follows obstacles more "
-                "closely, with more pushes."});
+         .doc = "Duration of a push. Each push is aimed at the target again. Shorter: the part follows obstacles more "
+                "closely, but needs more pushes."});
     s.add("tunnels", &Parameters::tunnels,
           {.unit = "1",
            .min = 0,
            .max = 1000,
            .doc =
-               "Trees at the beginning that are rooted in poses where narrow places of the parts match. More are added "
-               "during the search (`extensions_per_tunnel`). 0: only the tree at the start grows."});
+               "Number of trees at the beginning whose roots are poses where narrow places of the parts match. More are "
+               "added during the search (`extensions_per_tunnel`). 0: only the tree at the start grows."});
     s.add(
         "surface_samples", &Parameters::surface_samples,
         {.unit = "1",
          .min = 1,
          .max = 1e6,
-         .doc = "Surface points of the moving and of the fixed parts at which gaps and bars are measured. More: small "
-                "narrow places are found."});
+         .doc = "Number of surface points of the moving and of the fixed parts at which gaps and bars are measured. More: "
+                "smaller narrow places are found."});
     s.add("join_distance", &Parameters::join_distance,
           {.unit = "unit",
            .min = 0,
-           .doc = "Largest distance of two nodes of different trees between which a join is tried: that of the centres "
-                  "plus half the radius times the angle. Larger: more joins are tried, and more of them fail."});
+           .doc = "Joins are tried between nodes of different trees up to this distance: that of the centres plus half the "
+                  "radius times the angle. Larger: more joins are tried, and more of them fail."});
     s.add("node_spacing", &Parameters::node_spacing,
           {.unit = "unit",
            .min = 0.01,
            .max = 100,
-           .doc = "Largest length of an edge; longer trajectories get nodes in between. It is also the scale of the "
-                  "parameters with the unit `node_spacing`. Smaller: a denser roadmap."});
+           .doc = "Longest edge; longer trajectories get nodes in between. Also the scale of the parameters with the unit "
+                  "`node_spacing`. Smaller: a denser roadmap."});
     s.add(
         "clearance", &Parameters::clearance,
         {.unit = "unit",
@@ -94,8 +94,7 @@ struct Parameters {
          .max = 0.01,
          .doc =
              "Distance from contact that a path keeps after retraction, or half of the free width where that is less. "
-             "The simulator samples contact, so a path in contact cuts between the samples, and the verifier refuses "
-             "it."});
+             "The simulator samples contact, so a path in contact penetrates between the samples and is refused."});
     path::add_thinning(s, &Parameters::thinning);
     s.add("shortcuts", &Parameters::shortcuts,
           {.unit = "1", .min = 0, .max = 100'000, .doc = "Attempts to replace pieces of a path by direct motions."});
@@ -109,14 +108,14 @@ struct Parameters {
            .min = 1e-3,
            .max = 1,
            .doc =
-               "Advanced. Distance of the state checks along a shortcut, and half that of the poses of a path that are "
-               "retracted. Smaller: fewer paths are refused, each costs more."});
+               "Advanced. Distance between the state checks along a shortcut. The retracted poses of a path are twice as "
+               "far apart. Smaller: fewer paths are refused, each costs more."});
     s.add("repairs", &Parameters::repairs,
           {.unit = "1",
            .min = 0,
            .max = 1000,
-           .doc = "Advanced. Number of times that a refused path is retracted again after the verifier has named the "
-                  "place where it cuts."});
+           .doc = "Advanced. Number of times that a refused path is retracted again after the verifier has reported where "
+                  "it penetrates."});
     s.add("first_turn", &Parameters::first_turn,
           {.unit = "1",
            .min = 1,
@@ -127,13 +126,13 @@ struct Parameters {
         {.unit = "1",
          .min = 0,
          .max = 100,
-         .doc = "Advanced. A forest whose explored space has grown by more than this share in a turn gets a next turn "
-                "of twice the length."});
+         .doc = "Advanced. If the explored space of a forest grows by more than this share in a turn, its next turn is "
+                "twice as long."});
     s.add("barren_turns", &Parameters::barren_turns,
           {.unit = "1",
            .min = 1,
            .max = 1e6,
-           .doc = "Advanced. Number of turns in a row without any new space after which a forest is exhausted."});
+           .doc = "Advanced. Number of consecutive turns without any new space after which a forest is exhausted."});
   }
 
  private:
@@ -142,7 +141,7 @@ struct Parameters {
       return ParamTraits{.unit = "1", .min = 0, .max = 1, .doc = "Advanced. " + doc};
     };
     s.add("start_bias", &Parameters::start_bias,
-          share("Share of the extensions in the tree of the start; the others are in any tree."));
+          share("Share of the extensions that begin in the tree of the start; the others begin in any tree."));
     s.add("local_share", &Parameters::local_share,
           share("Share of the extensions that slide or turn a node in a sparse region of its tree."));
     s.add("uniform_share", &Parameters::uniform_share,

@@ -107,7 +107,7 @@ void Roadmap::cut(Index edge) {
 }
 
 std::vector<Roadmap::Index> Roadmap::edges_to_separated(Index from) const {
-  std::vector<Index> back(nodes_.size(), geometry::kNoIndex);  // edge by which a node was reached
+  std::vector<Index> back(nodes_.size(), geometry::kNoIndex);  // by node: the edge through which it was reached
   std::vector<bool> seen(nodes_.size(), false);
   std::deque<Index> queue{from};
   seen[from] = true;

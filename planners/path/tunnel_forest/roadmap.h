@@ -1,4 +1,4 @@
-/// Nodes and edges of a forest: its trees, and the edges that lead from the start to a node.
+/// Nodes, edges and trees of a forest.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +35,8 @@ class Roadmap {
     std::uint32_t separated = 0;  ///< number of its nodes that are separated
   };
 
-  /// `cell`: edge of the cells in which density() counts nodes (assembly units). `arm`: length that stands for a turn
-  /// of 1 rad.
+  /// `cell`: edge of the cells in which density() counts nodes (assembly units). `arm`: length equivalent to a
+  /// rotation of 1 rad.
   Roadmap(double cell, double arm) : cell_(cell), arm_(arm) {}
 
   /// Adds a tree with one node.
@@ -45,26 +45,26 @@ class Roadmap {
   Index grow(Index from, Node node, Path path);
   /// Joins the two different trees of a and b. `path` leads from a to b.
   void join(Index a, Index b, Path path);
-  /// Removes an edge; its tree splits in two.
+  /// Removes an edge and splits its tree in two.
   void cut(Index edge);
 
   Node& node(Index i) { return nodes_[i]; }
   const Node& node(Index i) const { return nodes_[i]; }
   std::size_t size() const { return nodes_.size(); }
   const Tree& tree(Index t) const { return trees_[t]; }
-  /// Trees with nodes, oldest first.
+  /// Trees that have nodes, oldest first.
   const std::vector<Index>& trees() const { return live_trees_; }
-  /// Number of nodes in the cell of this one.
+  /// Number of nodes in the cell of `node`.
   std::uint32_t density(Index node) const { return cells_.at(nodes_[node].cell); }
   std::size_t cells() const { return cells_.size(); }
 
   double distance(const Eigen::Vector3d& center, const Eigen::Quaterniond& turn, const Node& n) const;
   Index nearest(const Eigen::Vector3d& center, const Eigen::Quaterniond& turn, Index tree) const;
 
-  /// Edges from `from` to the separated node that is fewest edges away. Empty when its tree has none, or when it is
-  /// `from` itself.
+  /// Edges from `from` to the separated node with the fewest edges in between. Empty if the tree has no separated node,
+  /// or if `from` is separated.
   std::vector<Index> edges_to_separated(Index from) const;
-  /// The path along an edge, beginning at `from`: `from`'s poses excluded.
+  /// The path along an edge from its end `from`, without the poses of `from`.
   Path along(Index edge, Index from) const;
   Index other_end(Index edge, Index from) const { return edges_[edge].a == from ? edges_[edge].b : edges_[edge].a; }
 

@@ -27,7 +27,7 @@ bool CandidatePaths::accepts(SamplingProblem& problem, const std::vector<Samplin
   };
   const auto learn = [&](const PathCheck& check, const Path&) {
     result.message = check.reason;
-    // The instant is the last one before the fault, so the next edge is at fault; without a witness, the last one.
+    // The witness is the last instant before the fault, so the next edge is at fault. Without a witness: the last edge.
     edge = check.has_witness ? edge_of[std::min(check.instant + 1, edge_of.size() - 1)] : forms[shown].size() - 1;
     edge = std::max<std::size_t>(edge, 1);
     return true;

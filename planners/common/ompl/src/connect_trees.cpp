@@ -47,7 +47,7 @@ void ConnectTrees::report(std::uint32_t in_first, std::optional<std::uint32_t> i
   child_of_edge_.erase(child_of_edge_.begin());  // the root ends no edge
   edges_of_first_ = child_of_edge_.size();
   if (in_second) {
-    auto rest = trees_[1].to_root(*in_second);  // begins with the state that ends the first
+    auto rest = trees_[1].to_root(*in_second);  // begins with the state at which the first tree's branch ends
     for (auto n = rest.begin() + 1; n != rest.end(); ++n) solution_.push_back(trees_[1].state(*n));
     rest.pop_back();
     child_of_edge_.insert(child_of_edge_.end(), rest.begin(), rest.end());
@@ -85,7 +85,7 @@ ob::PlannerStatus ConnectTrees::solve(const ob::PlannerTerminationCondition& sto
   checkValidity();
   const auto* goal = dynamic_cast<const ob::GoalSampleableRegion*>(getProblemDefinition()->getGoal().get());
   if (goal == nullptr) return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
-  // A single state is reached where the trees meet, a region by any state of it.
+  // A single goal state is reached only where the trees meet, a region at any state in it.
   const bool is_region = dynamic_cast<const ob::GoalState*>(goal) == nullptr;
   if (trees_[0].size() == 0) {
     const auto start = *static_cast<const StateType*>(getProblemDefinition()->getStartState(0));

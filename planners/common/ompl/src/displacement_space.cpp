@@ -126,8 +126,8 @@ ompl::base::StateSamplerPtr DisplacementSpace::allocDefaultStateSampler() const 
 void append_edge(const DisplacementSpace& space, const StateType& first, const StateType& last, double deviation,
                  std::vector<Pose>& displacements) {
   const double length = (last.center - first.center).norm(), turn = angle_between(first.turn, last.turn);
-  // On a screw motion the centre moves on an arc above its chord: sagitta = length * turn / 8. In n pieces it is n * n
-  // times smaller.
+  // On a screw motion the centre moves on an arc with sagitta = length * turn / 8. With n pieces it is n * n times
+  // smaller.
   const double pieces = std::max(1.0, std::ceil(std::sqrt(length * turn / 8 / deviation)));
   for (double k = 1; k <= pieces; ++k)
     displacements.push_back(space.displacement(k < pieces ? space.between(first, last, k / pieces) : last));

@@ -12,7 +12,7 @@ struct NearestNodes::Search {
   std::size_t count = 1;
   std::vector<std::pair<double, std::uint32_t>> best{};  ///< ascending, at most `count`
 
-  /// Nothing further than this can be among the best.
+  /// No point further than this can be among the best.
   double reach() const { return best.size() < count ? std::numeric_limits<double>::infinity() : best.back().first; }
   void add(std::uint32_t label) {
     const std::pair entry(metric(label), label);

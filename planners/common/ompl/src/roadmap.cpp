@@ -101,7 +101,7 @@ std::optional<std::uint32_t> Roadmap::expand() {
   return std::nullopt;
 }
 
-/// One of two states at a random distance, where the other is not free.
+/// Draws two states at a random distance; returns the free one if the other is not free.
 std::optional<SamplingProblem::StateType> Roadmap::near_obstacle() {
   StateType a, far;
   problem_.space().draw(rng_, a);
@@ -131,7 +131,7 @@ std::optional<std::uint32_t> Roadmap::sample(const ob::GoalSampleableRegion& goa
   return problem_.is_free(state) ? std::optional(add(state)) : std::nullopt;
 }
 
-/// Dijkstra from the start to the nearest milestone of the goal, by lengths.
+/// Dijkstra's algorithm from the start to the goal milestone with the shortest path.
 bool Roadmap::find_path() {
   solution_.clear();
   route_.clear();

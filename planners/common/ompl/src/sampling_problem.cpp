@@ -17,7 +17,7 @@ namespace {
 
 using StateType = DisplacementSpace::StateType;
 
-/// OMPL writes to the terminal unless told otherwise; a planner prints nothing.
+/// OMPL logs to the terminal by default, but a planner must not print.
 void silence_ompl() {
   static std::once_flag once;
   std::call_once(once, [] { ompl::msg::setLogLevel(ompl::msg::LOG_NONE); });
@@ -68,7 +68,7 @@ class SamplingProblem::Checker final : public ompl::base::StateValidityChecker {
   SamplingProblem& problem_;
 };
 
-/// OMPL's discrete validator takes its step as a fraction of the space's extent; this one takes a length.
+/// OMPL's discrete validator takes its step as a fraction of the space's extent; this validator takes a length.
 class SamplingProblem::Validator final : public ompl::base::MotionValidator {
  public:
   Validator(SamplingProblem& problem, const ompl::base::SpaceInformationPtr& information)
@@ -98,12 +98,12 @@ SamplingProblem::SamplingProblem(const PathQuery& query, MotionSpace motion, dou
       deviation_(std::max(0.5 * (query.tolerance - max_penetration), geometry::kRounding)),
       start_(path::poses_of(query.scene.moving)) {
   silence_ompl();
-  // Inexact CAD data may put the start itself beyond the limit; the initial penetration is not an obstacle.
+  // With inexact CAD data the start may exceed the limit. Its initial penetration must not block the search.
   allowed_ = std::max(max_penetration, world_->penetration(world_->initial_state()));
   information_ = std::make_shared<ompl::base::SpaceInformation>(space_);
   information_->setStateValidityChecker(std::make_shared<Checker>(*this, information_));
   information_->setMotionValidator(std::make_shared<Validator>(*this, information_));
-  // The same step for code that asks OMPL itself, as a fraction.
+  // The same step as a fraction, for code that asks OMPL for it.
   space_->setLongestValidSegmentFraction(step / space_->getMaximumExtent());
 }
 
@@ -186,13 +186,13 @@ std::vector<StateType> SamplingProblem::shortcut(const std::vector<StateType>& s
 }
 
 void SamplingProblem::note_blocked(const StateType& state) {
-  // The first 16, then those whose number is a power of two: a small sample over the whole search.
+  // Keeps the first 16 and then each whose number is a power of two: a small sample over the whole search.
   const std::uint64_t n = ++blocked_;
   if (n <= 16 || (n & (n - 1)) == 0) blocked_states_.push_back(state);
 }
 
 std::vector<PartId> SamplingProblem::blockers() const {
-  // Each state is checked against each fixed part alone: about 64 checks beyond the budget.
+  // Checks each state against each fixed part alone: about 64 checks in addition to the budget.
   std::vector<std::pair<std::size_t, PartId>> hits;
   const std::size_t states = std::min(
       blocked_states_.size(), std::max<std::size_t>(1, 64 / std::max<std::size_t>(1, query_.scene.fixed.size())));

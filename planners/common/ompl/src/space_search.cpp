@@ -15,7 +15,7 @@ namespace {
 
 using StateType = SamplingProblem::StateType;
 
-/// One state space and what is grown in it.
+/// One state space and its planner.
 class Space {
  public:
   Space(const PathQuery& query, MotionSpace motion, const SpaceParameters& p, const MakeSpacePlanner& make_planner,
@@ -27,7 +27,7 @@ class Space {
   const SamplingProblem& problem() const { return problem_; }
   const SpacePlanner& planner() const { return *planner_; }
 
-  /// Until a path is accepted, or `limit` checks have been made in all, or the budget is spent.
+  /// Grows until a path is accepted, `limit` checks have been made in total, or the budget is spent.
   bool grow(CandidatePaths& candidates, std::uint64_t limit, PathResult& result) {
     const ompl::base::PlannerTerminationCondition stop(
         [&] { return problem_.budget().checks >= limit || problem_.budget().spent(); });
@@ -87,7 +87,7 @@ class SpaceSearch final : public PathSearch {
       spaces_.push_back(
           std::make_unique<Space>(query, motion, parameters, make_planner, budget_, context.rng.fork(stream)));
     };
-    // A motion without rotation is a motion in SE(3) as well, so lines need no space of their own.
+    // A translation is a motion in SE(3) as well, so lines need no space of their own.
     if (parameters.motion != Motion::rotation) add(MotionSpace::translation, 1);
     if (parameters.motion != Motion::translation) add(MotionSpace::rigid, 2);
   }

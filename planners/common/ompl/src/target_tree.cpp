@@ -62,7 +62,7 @@ ob::PlannerStatus TargetTree::solve(const ob::PlannerTerminationCondition& stop)
   }
   StateType drawn;
   while (!stop()) {
-    // The first extension goes to a goal: many parts leave in a straight line.
+    // The first extension goes towards a goal, because many parts leave in a straight line.
     const bool to_goal = iterations_++ == 0 || rng_.uniform() < settings_.goal_bias;
     const auto target = to_goal ? rule_->target(*this, rng_) : std::nullopt;
     std::optional<std::uint32_t> out;

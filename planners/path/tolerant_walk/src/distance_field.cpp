@@ -11,7 +11,7 @@ namespace dismantle::tolerant_walk {
 namespace {
 
 constexpr double kMostBlocks =
-    4e6;  // pointers to blocks of a grid: a bound of memory, so cells are larger for huge parts
+    4e6;  // per grid; bounds memory, so huge parts get larger cells
 
 Aabb inflated(Aabb box, double by) {
   box.inflate(by);
@@ -40,13 +40,13 @@ DistanceField::Grid::Block& DistanceField::Grid::make(std::atomic<Block*>& place
   for (auto& value : *made) value.store(std::numeric_limits<float>::quiet_NaN(), std::memory_order_relaxed);
   Block* known = nullptr;
   if (!place.compare_exchange_strong(known, made.get(), std::memory_order_acq_rel))
-    return *known;  // another thread was first
+    return *known;  // another thread was faster
   ++blocks_known_;
   return *made.release();
 }
 
-/// From one grid point to the next the distance changes by one cell at most, and the sign only where the surface is
-/// nearer than that.
+/// Between neighbouring grid points the distance changes by at most one cell, and the sign only where the surface is
+/// nearer than one cell.
 DistanceField::Grid::Known DistanceField::Grid::from_neighbours(const Block& block, std::ptrdiff_t place) const {
   const auto edge = static_cast<std::ptrdiff_t>(kBlock);
   const auto reach = static_cast<float>(1.01 * cell_);
@@ -106,14 +106,14 @@ double DistanceField::Grid::at(const Eigen::Vector3d& p, const DistanceField* fi
       place[static_cast<Eigen::Index>(axis)] =
           static_cast<double>(b[axis] * kCells + static_cast<std::int64_t>(i[axis] + d[axis]));
     Known about = from_neighbours(*block, &known - block->data());
-    if (!field->closed_) about.sign = 0;  // for an open mesh it also changes in free space
+    if (!field->closed_) about.sign = 0;  // the sign of an open mesh also changes in free space
     known.store(static_cast<float>(field->measured(box_.lo + cell_ * place, about.sign, about.bound)),
                 std::memory_order_relaxed);
   }
   return interpolated();
 }
 
-// Interpolation is wrong by half the diagonal of a cell at most.
+// The error of interpolation is at most half the diagonal of a cell.
 DistanceField::DistanceField(std::shared_ptr<const Mesh> mesh, const Resolution& resolution)
     : resolution_(resolution),
       mesh_(std::move(mesh)),
@@ -145,7 +145,7 @@ double DistanceField::at(const Eigen::Vector3d& p) {
   const double outside = around_.squared_distance(p);
   if (outside > 0) return resolution_.band() + std::sqrt(outside);
   const double known = fine_.at(p, nullptr);
-  if (std::abs(known) < surely_fine_) return known;  // false for not a number
+  if (std::abs(known) < surely_fine_) return known;  // false for NaN
   const double about = coarse_.at(p, this);
   if (std::abs(about) > resolution_.coarse_distance()) return about;
   return std::isnan(known) ? fine_.at(p, this) : known;

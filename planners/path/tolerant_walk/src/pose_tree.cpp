@@ -101,7 +101,7 @@ bool PoseTree::state_valid(const Pose& displacement) {
   return false;
 }
 
-/// Bound of the displacement of each point of the moving parts.
+/// Upper bound of how far any point of the moving parts moves.
 double PoseTree::distance(const Pose& a, const Pose& b) const {
   return (a * center_ - b * center_).norm() + radius_ * angle_between(a.q, b.q);
 }
@@ -131,7 +131,7 @@ std::vector<std::uint32_t> PoseTree::branch_to(std::uint32_t node) const {
   return branch;
 }
 
-/// Checks the middle first, then the quarters, and so on: most invalid motions are invalid in the middle.
+/// Checks the middle first, then the quarters, and so on, because most invalid motions are invalid in the middle.
 bool PoseTree::motion_valid(const Pose& a, const Pose& b) {
   int pieces = 2;
   while (pieces * parameters_.check_spacing * query_.tolerance < distance(a, b)) pieces *= 2;
@@ -141,7 +141,7 @@ bool PoseTree::motion_valid(const Pose& a, const Pose& b) {
   return true;
 }
 
-/// Shortcuts whole pieces, the longest first, and then between random waypoints.
+/// Tries direct motions over whole pieces, longest first, then between random waypoints.
 std::vector<Pose> PoseTree::shortened(std::vector<Pose> waypoints) {
   const auto stop = [this] { return halted(); };
   path::shortcut_pieces(
@@ -203,8 +203,8 @@ void PoseTree::cut_off(std::uint32_t node, std::optional<PartId> by) {
   nodes_[node].cut_by = by;
 }
 
-/// Cuts the first node of the branch that is not valid any more, or else the one nearest to the refused pose, with its
-/// subtree.
+/// Cuts the subtree of the branch's first node that is no longer valid. If all are valid, cuts at the node nearest to
+/// the refused pose.
 void PoseTree::cut(const std::vector<std::uint32_t>& branch, const Pose& near, std::optional<PartId> by) {
   std::optional<std::uint32_t> first;
   double least = std::numeric_limits<double>::infinity();
@@ -222,7 +222,7 @@ void PoseTree::cut(const std::vector<std::uint32_t>& branch, const Pose& near, s
     if (const Node& parent = nodes_[nodes_[n].parent]; parent.cut && !nodes_[n].cut) cut_off(n, parent.cut_by);
 }
 
-/// Cuts all nodes that are invalid now that the tolerance of a pair is smaller.
+/// Cuts all nodes that have become invalid because the tolerance of a pair was reduced.
 void PoseTree::cut_invalid() {
   for (std::uint32_t n = 1; n < nodes_.size() && !halted(); ++n) {
     if (nodes_[n].cut) continue;

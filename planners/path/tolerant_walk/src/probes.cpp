@@ -17,9 +17,9 @@ using Vec3 = Eigen::Vector3d;
 
 /// Share of a wall's thickness that the verifier allows to be penetrated.
 constexpr double kWallShare = 0.25;
-/// Most samples along an edge of a triangle, a bound of time and memory.
+/// Maximum number of samples along an edge of a triangle; bounds time and memory.
 constexpr int kMaxPerEdge = 300;
-/// Samples that are measured for each one that is kept. Fine meshes have many more.
+/// Maximum number of candidates measured per kept sample. Fine meshes have many more.
 constexpr int kTriesPerCell = 4;
 
 /// Distance from a point of the surface to the opposite side, by sphere tracing in the field; at most `limit`.
@@ -28,7 +28,7 @@ double thickness_at(DistanceField& part, const Vec3& p, const Vec3& inward, doub
   for (double s = step; s < limit;) {
     const double depth = -part.at(p + s * inward);
     if (depth < part.resolution().on_surface() && s > 2 * step) {
-      // The surface counts when it faces the ray, not when the ray passes beside it.
+      // Only a surface that faces the ray counts, not one that the ray passes beside.
       const auto& c = part.bvh().corners(part.bvh().closest(p + s * inward).triangle);
       const Vec3 out = geometry::area_vector(c);
       if (out.dot(inward) > 0.5 * out.norm()) return s;
@@ -65,7 +65,7 @@ Probes::Probes(DistanceField& part, const Allowance& allowance, const Aabb& regi
   if (!(area > 0)) return;
   const Resolution& resolution = part.resolution();
   const double spacing = std::max(resolution.sample_spacing(), std::sqrt(area / static_cast<double>(max_count)));
-  const double cell = 0.7 * spacing;  // holds one sample, the strictest
+  const double cell = 0.7 * spacing;  // each cell keeps its strictest sample
   using Key = std::tuple<long, long, long>;
   const auto key_of = [cell](const Vec3& p) {
     return Key(std::lround(p.x() / cell), std::lround(p.y() / cell), std::lround(p.z() / cell));
@@ -85,8 +85,8 @@ Probes::Probes(DistanceField& part, const Allowance& allowance, const Aabb& regi
       const double thick = allowance.tolerance / kWallShare;
       const double thin = std::min(thickness_at(part, p - resolution.ray_step() * beside, -normal, thick),
                                    thickness_at(part, p - resolution.ray_step() * normal, -beside, thick));
-      // The wall at an acute edge (more than 92 degrees between the normals) becomes arbitrarily thin, so nothing
-      // beyond the overlap is sure to be accepted.
+      // The wall at an acute edge (more than 92 degrees between the normals) becomes arbitrarily thin. The verifier may
+      // refuse any depth beyond the overlap there.
       const bool acute = allowance.exact && normal.dot(beside) < -0.03;
       const Probe probe{p, -allowance.overlap - (acute ? 0 : std::min(allowance.tolerance, kWallShare * thin))};
       const auto [entry, is_new] = points.try_emplace(key_of(p), probe);
@@ -101,7 +101,7 @@ Probes::Probes(DistanceField& part, const Allowance& allowance, const Aabb& regi
     Probe& best = balls[key_of(ball.center)];
     if (ball.keep > best.keep) best = ball;
   };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> open;  // edges of which one triangle was visited
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> open;  // edges with one visited triangle
   bvh.overlapping(region, [&](std::uint32_t t) {
     const auto& c = bvh.corners(t);
     const Vec3 normal = normal_of(t);
@@ -200,7 +200,7 @@ bool Probes::any_violated(const Pose& place, DistanceField& other, std::uint64_t
     double distance = other.at(at);
     if (exact_ && std::abs(distance - p.keep) < other.error()) {
       distance = other.measured(at);
-      distance_queries += 20;  // a measured distance takes about as long as that many from the field
+      distance_queries += 20;  // measuring takes about as long as 20 queries of the field
     }
     if (!(distance < p.keep)) return false;
     if (p.start == geometry::kNoIndex) return true;
@@ -209,10 +209,10 @@ bool Probes::any_violated(const Pose& place, DistanceField& other, std::uint64_t
   };
   if (std::any_of(added_.begin(), added_.end(), violated)) return true;
   if (nodes_.empty()) return false;
-  if (violated(probes_[last_])) return true;  // it is often the same one again
+  if (violated(probes_[last_])) return true;  // the same probe is often violated again
   struct OpenNode {
     std::uint32_t node;
-    double bound;  // of the violation of its probes
+    double bound;  // upper bound of the violation of its probes
   };
   const auto visit = [&](std::uint32_t id) {
     const Node& node = nodes_[id];
@@ -235,7 +235,7 @@ bool Probes::any_violated(const Pose& place, DistanceField& other, std::uint64_t
       continue;
     }
     const OpenNode left = visit(next.node + 1), right = visit(node.first);
-    const bool right_first = right.bound > left.bound;  // the one more likely to be violated comes first
+    const bool right_first = right.bound > left.bound;  // visits the child more likely to be violated first
     open[waiting++] = right_first ? left : right;
     open[waiting++] = right_first ? right : left;
   }

@@ -13,7 +13,7 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// To the neighbours of a cell of a cubic grid: the axes and the diagonals.
+/// Unit vectors to the 26 neighbours of a cell of a cubic grid.
 const std::array<Vec3, 26>& directions() {
   static const std::array<Vec3, 26> all = [] {
     std::array<Vec3, 26> list;
@@ -79,7 +79,7 @@ std::uint32_t RrtSearch::select_node(PoseTree::Step& step) {
   return static_cast<std::uint32_t>(from);
 }
 
-/// Repeats one step from a node; steps grow as long as the poses are valid.
+/// Repeats one step from a node. Steps grow while poses are valid.
 bool RrtSearch::extend() {
   PoseTree::Step step;
   std::uint32_t at = select_node(step);
@@ -102,7 +102,7 @@ bool RrtSearch::extend() {
   return false;
 }
 
-/// The hulls are compared only once for each half of a longest step away from the start.
+/// Compares the hulls only when the node is at least half a longest step further from the start than at the last check.
 bool RrtSearch::is_goal(std::uint32_t node) {
   const double far = (tree_[node].center - tree_.center()).norm();
   if (far < goal_checked_at_ + 0.5 * parameters_.longest_step * parameters_.step) return false;
@@ -126,7 +126,7 @@ SearchStatus RrtSearch::run(const Budget& portion) {
   const Deadline end = path::deadline_of(portion);
   const std::uint64_t until = path::end_of_portion(state_checks(), portion.max_steps, max_state_checks_);
   bool solved = false;
-  if (std::exchange(resumed_, false))  // the furthest nodes may be separated now that parts have left
+  if (std::exchange(resumed_, false))  // parts have left, so the furthest nodes may be separated now
     for (const std::uint32_t n : std::array(furthest_))
       if (!solved && !tree_.halted() && !tree_[n].cut && tree_.separated(tree_[n].pose)) solved = find_verified_path(n);
   const auto over = [&] { return state_checks() >= max_state_checks_ || tree_.halted() || tree_.given_up(); };

@@ -44,7 +44,7 @@ ValidityChecker::Pair& ValidityChecker::pair(const PlacedPart& moving, const Pla
   const auto key = std::pair(moving.part, fixed.part);
   if (const auto known = pairs_.find(key); known != pairs_.end()) return known->second;
   Allowance allowance = allowed(moving.part, fixed.part);
-  // An overlap of less than an eighth of the tolerance is covered by it.
+  // The tolerance covers an overlap of less than an eighth of it.
   const bool at_start = overlap_ == Overlap::near_start && allowance.overlap > max_penetration_ / 8;
   if (at_start) allowance = {0, allowance.tolerance, true};
   return pairs_.emplace(key, probes(moving, fixed, allowance, at_start)).first->second;
@@ -55,7 +55,7 @@ ValidityChecker::Pair ValidityChecker::probes(const PlacedPart& moving, const Pl
   const double near_distance = sampling_.resolution.near();
   const double reach = overlap_at_start ? reach_of_overlap(moving.part, fixed.part) : 0;
   const auto make = [&](const PlacedPart& of, const PlacedPart& other, const Pose& to_part) {
-    // Samples are dense around the other part at its pose, and sparse elsewhere.
+    // Samples are dense near the other part at its pose, and sparse elsewhere.
     Aabb near;
     for (const auto& v : hull_corners(assembly_.parts[other.part].mesh->vertices)) near.extend(to_part * v);
     near.inflate(near_distance);
@@ -79,8 +79,8 @@ ValidityChecker::Pair ValidityChecker::probes(const PlacedPart& moving, const Pl
   return {made(moving, fixed), made(fixed, moving), allowance, overlap_at_start, 0};
 }
 
-/// Halves the tolerance of a pair that the verifier refuses repeatedly: the verifier sees deeper than the samples do.
-/// Ends after five times.
+/// Halves the tolerance of a pair that the verifier refuses repeatedly, because the verifier finds deeper penetration
+/// than the samples do. Does so at most five times.
 bool ValidityChecker::tighten(const PlacedPart& moving, const PlacedPart& fixed, Pair& both) {
   if (overlap_ == Overlap::everywhere || both.refused < 2 || both.allowance.tolerance < max_penetration_ / 16)
     return false;
@@ -108,7 +108,7 @@ bool ValidityChecker::is_valid(const Pose& displacement) {
     for (std::size_t k = 0; k < scene_.fixed.size(); ++k) {
       const std::size_t s = k == 0 ? first_ : k <= first_ ? k - 1 : k;
       const PlacedPart& fixed = scene_.fixed[s];
-      // Parts that never come near each other need no fields and probes.
+      // Parts that never come near each other need neither fields nor probes.
       const Eigen::Vector3d center = fixed.pose.inverse() * (at * balls_[i].center);
       if (boxes_[s].squared_distance(center) > balls_[i].radius * balls_[i].radius || clear(moving, at, fixed))
         continue;
@@ -125,8 +125,8 @@ void ValidityChecker::add_probes(const PlacedPart& of, const PlacedPart& other, 
                                  const Pose& place, const Pair& both, Probes& probes) {
   const Allowance& most = both.allowance;
   DistanceField& solid = field(other.part);
-  // The verifier refuses less than the tolerance where a wall is thin, or where its bounds are not tight. From now on
-  // half of the refused depth is allowed here, or half of the tolerance if the depth is not known.
+  // The verifier may refuse depths below the tolerance where a wall is thin or its bounds are not tight. From now on
+  // half of the refused depth is allowed here, or half of the tolerance if the depth is unknown.
   const Eigen::Vector3d there = place * point;
   const double beyond = solid.at(there) < 0 ? solid.bvh().closest(there).distance - most.overlap : 0;
   const double keep = -most.overlap - 0.5 * (beyond > 0 ? std::min(beyond, most.tolerance) : most.tolerance);
@@ -135,7 +135,7 @@ void ValidityChecker::add_probes(const PlacedPart& of, const PlacedPart& other, 
     probes.add({p, both.overlap_at_start ? keep : std::min(keep, solid.at(at_first * p))});
   };
   add(point);
-  // Points near it would be refused next: at most about 100 vertices, however fine the mesh is.
+  // The verifier would refuse nearby points next. At most about 100 vertices are added, however fine the mesh is.
   std::vector<Eigen::Vector3d> near;
   for (const auto& v : assembly_.parts[of.part].mesh->vertices)
     if ((v - point).norm() < sampling_.resolution.neighborhood()) near.push_back(v);

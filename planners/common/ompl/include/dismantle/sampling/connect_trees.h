@@ -17,17 +17,17 @@ namespace dismantle::sampling {
 /// of them extends towards a random state, and the other extends towards the new node until it arrives or is blocked;
 /// then they change roles. The first target after a new root of the second tree is that root.
 ///
-/// The problem's goal is a GoalState, or a region that can be sampled: then each iteration adds a root until there are
-/// maxSampleCount(), and a node of the first tree within the region ends the search as well.
+/// The problem's goal is a GoalState, or a region that can be sampled. With a region, each iteration samples a root until
+/// maxSampleCount() were sampled, and a node of the first tree in the region also ends the search.
 ///
-/// Not ompl::geometric::RRTConnect: that draws its seeds from a sequence of the whole process. All random numbers
-/// come from the given generator. A further solve() continues with the same trees; after clear() it starts again with
-/// other random numbers.
+/// Not ompl::geometric::RRTConnect, which draws its seeds from a process-wide sequence. All random numbers come from the
+/// given generator. A further solve() continues with the same trees; after clear() it starts again with other random
+/// numbers.
 class ConnectTrees final : public ompl::base::Planner {
  public:
   using StateType = SamplingProblem::StateType;
 
-  /// `range`: longest extension, assembly units.
+  /// `range`: longest extension in assembly units.
   ConnectTrees(SamplingProblem& problem, double range, const Rng& rng);
 
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& stop) override;
@@ -42,7 +42,7 @@ class ConnectTrees final : public ompl::base::Planner {
   const StateTree& from_start() const { return trees_[0]; }
 
  private:
-  /// One tree extends towards the new node of the other.
+  /// One tree extends, from its node `at`, towards the other tree's new node `meeting`.
   struct Connection {
     std::uint32_t meeting = 0, at = 0;
   };
@@ -62,8 +62,8 @@ class ConnectTrees final : public ompl::base::Planner {
   unsigned sampled_ = 0;  // goal states drawn
   std::uint64_t grown_ = 0, iterations_ = 0;
   std::vector<StateType> solution_;
-  std::vector<std::uint32_t> child_of_edge_;  // of the solution, by edge - 1: a node of the first tree ...
-  std::size_t edges_of_first_ = 0;            // ... where edge <= this, else of the second
+  std::vector<std::uint32_t> child_of_edge_;  // by edge - 1 of the solution: the edge's child node
+  std::size_t edges_of_first_ = 0;            // edges up to this one are in the first tree, the rest in the second
 };
 
 }  // namespace dismantle::sampling

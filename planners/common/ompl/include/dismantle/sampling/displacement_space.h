@@ -21,11 +21,11 @@ struct Mover {
 
 /// R3 or SE(3). A state is the position of the mover's centre and its rotation since the start.
 ///
-/// Metric (assembly units): displacement of the centre plus radius times angle. No point of the mover travels further
-/// on the motion between two states, in which the centre moves on a line while the mover turns at constant speed
-/// (OMPL's interpolation for SE(3)). A step in this metric therefore bounds the step of every point.
+/// Metric (assembly units): displacement of the centre plus radius times angle. Between two states the centre moves on a
+/// line while the mover rotates at constant speed (OMPL's interpolation for SE(3)), and no point of the mover travels
+/// further than the metric. A step in this metric therefore bounds the step of every point.
 ///
-/// Draws nothing from OMPL's process-wide sequence of seeds unless asked for a sampler by OMPL itself.
+/// Draws nothing from OMPL's process-wide sequence of seeds unless OMPL itself requests a sampler.
 class DisplacementSpace final : public ompl::base::StateSpace {
  public:
   struct StateType final : ompl::base::State {
@@ -40,14 +40,14 @@ class DisplacementSpace final : public ompl::base::StateSpace {
     Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
   };
 
-  /// `bounds`: of the centre, world.
+  /// `bounds`: of the mover's centre, in the world.
   DisplacementSpace(const Mover& mover, MotionSpace motion, const Aabb& bounds);
 
   const Mover& mover() const { return mover_; }
   MotionSpace motion() const { return motion_; }
   const Aabb& bounds() const { return bounds_; }
 
-  /// Displacement since the start: x' = R x + t for every point where it stood at the start.
+  /// Displacement since the start: x' = R x + t for a point at x at the start.
   Pose displacement(const StateType& state) const { return {state.center - state.turn * mover_.center, state.turn}; }
   StateType start() const;
   /// Uniform in the bounds; orientation uniform in SO(3) (Shoemake) when it is free.
@@ -65,7 +65,7 @@ class DisplacementSpace final : public ompl::base::StateSpace {
   bool equalStates(const ompl::base::State* a, const ompl::base::State* b) const override;
   void interpolate(const ompl::base::State* from, const ompl::base::State* to, double u,
                    ompl::base::State* state) const override;
-  /// For OMPL's own planners: seeded from `seed_samplers`, each sampler differently.
+  /// For OMPL's own planners. Each sampler gets another seed from the generator given to seed_samplers().
   ompl::base::StateSamplerPtr allocDefaultStateSampler() const override;
   void seed_samplers(const Rng& rng) { sampler_seeds_ = rng; }
   ompl::base::State* allocState() const override { return new StateType; }
@@ -78,8 +78,8 @@ class DisplacementSpace final : public ompl::base::StateSpace {
   mutable Rng sampler_seeds_{1};
 };
 
-/// Subdivides an edge so that the screw motions between the poses, which is the meaning of a path, stay within
-/// `deviation` (assembly units) of it. `first` excluded, `last` included.
+/// Subdivides an edge so that the screw motions between the poses of the path stay within `deviation` (assembly units) of
+/// the edge. Appends poses after `first`, up to and including `last`.
 void append_edge(const DisplacementSpace& space, const DisplacementSpace::StateType& first,
                  const DisplacementSpace::StateType& last, double deviation, std::vector<Pose>& displacements);
 

@@ -1,5 +1,4 @@
-/// Deterministic nearest neighbours. (OMPL's trees pick their pivots with generators seeded from a process-wide
-/// sequence.)
+/// Deterministic nearest neighbours. (OMPL's trees pick pivots with generators seeded from a process-wide sequence.)
 #pragma once
 
 #include <Eigen/Core>
@@ -11,17 +10,17 @@
 
 namespace dismantle::sampling {
 
-/// Points with labels 0, 1, 2... in the order in which they are added. Logarithmic method: k-d trees of doubling size.
+/// Points labelled 0, 1, 2, ... in order of addition. Logarithmic method: k-d trees of doubling size.
 class NearestNodes {
  public:
   std::uint32_t add(const Eigen::Vector3d& point);
-  /// The label is ignored from now on.
+  /// Searches ignore the label from now on.
   void remove(std::uint32_t label) { removed_[label] = true; }
   bool removed(std::uint32_t label) const { return removed_[label]; }
-  /// Label with the least metric(label), the lowest of equal ones; geometry::kNoIndex without any. The metric has to be
-  /// at least the distance from `point` to the label's point.
+  /// Label with the least metric(label), the lowest label of equal ones; geometry::kNoIndex if there are none. The metric
+  /// must be at least the distance from `point` to the label's point.
   std::uint32_t nearest(const Eigen::Vector3d& point, const std::function<double(std::uint32_t)>& metric) const;
-  /// Up to `count` labels with the least metric, the nearest first, of equal ones the lower label first.
+  /// Up to `count` labels with the least metric, nearest first; of equal ones, the lower label first.
   std::vector<std::uint32_t> nearest(const Eigen::Vector3d& point, const std::function<double(std::uint32_t)>& metric,
                                      std::size_t count) const;
   std::size_t size() const { return points_.size(); }

@@ -24,15 +24,14 @@ namespace dismantle::sampling {
 /// - with probability `gaussian` of the rest, a state near an obstacle (Boor, Overmars and van der Stappen 1999);
 /// - otherwise a uniform one.
 ///
-/// Not ompl::geometric::PRM: that runs threads of its own, draws its seeds from a sequence of the whole process, and is
-/// not reproducible. All random numbers come from the given generator. A further solve() continues with the same
-/// roadmap.
+/// Not ompl::geometric::PRM, which runs its own threads, draws its seeds from a process-wide sequence, and is not
+/// reproducible. All random numbers come from the given generator. A further solve() continues with the same roadmap.
 class Roadmap final : public ompl::base::Planner {
  public:
   using StateType = SamplingProblem::StateType;
   struct Settings {
     std::size_t neighbours = 8;
-    double range = 1;  ///< of expansions, and deviation of the Gaussian; assembly units
+    double range = 1;  ///< longest expansion, and deviation of the Gaussian; assembly units
     double expansion = 0.3;
     double gaussian = 0.3;
   };
@@ -48,7 +47,7 @@ class Roadmap final : public ompl::base::Planner {
   void discard(std::size_t edge);
   std::uint64_t nodes() const { return milestones_.size(); }
   std::uint64_t iterations() const { return iterations_; }
-  /// Of the milestones connected to the start, the one whose centre is furthest from it. Nothing: not begun.
+  /// Of the milestones connected to the start, the one whose centre is furthest from it. Nothing before the first solve().
   std::optional<StateType> farthest() const;
 
  private:
@@ -56,22 +55,22 @@ class Roadmap final : public ompl::base::Planner {
     StateType state;
     bool goal = false;
     std::uint32_t component = 0;                            ///< parent in the forest of components
-    std::uint32_t tried = 0, blocked = 0;                   ///< motions from here
-    std::uint32_t expanded = 0;                             ///< of these, expansions
+    std::uint32_t tried = 0, blocked = 0;                   ///< number of motions from here
+    std::uint32_t expanded = 0;                             ///< number of expansions from here
     std::vector<std::pair<std::uint32_t, double>> edges{};  ///< to, length
   };
-  /// Of a component, kept at its root (Milestone::component).
+  /// Stored at the index of the component's root (Milestone::component).
   struct Component {
     std::vector<std::uint32_t> members;
     std::uint32_t goals = 0;  ///< members that are in the goal
   };
-  /// Merges two components. The root is the lower one, so that of the start is 0.
+  /// Merges two components. The lower root remains, so the root of the start's component is 0.
   void merge(std::uint32_t a, std::uint32_t b);
   std::uint32_t component(std::uint32_t node);
   void join(std::uint32_t a, std::uint32_t b);
   std::uint32_t add(const StateType& state);
   void connect(std::uint32_t node);
-  /// The milestone of this iteration. Nothing: the state was not free.
+  /// The milestone of this iteration; nothing if it was not free.
   std::optional<std::uint32_t> sample(const ompl::base::GoalSampleableRegion& goal);
   std::optional<std::uint32_t> expand();
   std::optional<StateType> near_obstacle();
@@ -86,7 +85,7 @@ class Roadmap final : public ompl::base::Planner {
   std::uint64_t iterations_ = 0;
   std::vector<Component> components_;  // by root
   std::vector<StateType> solution_;
-  std::vector<std::uint32_t> route_;  // the same, as milestones
+  std::vector<std::uint32_t> route_;  // the milestones of solution_
 };
 
 }  // namespace dismantle::sampling

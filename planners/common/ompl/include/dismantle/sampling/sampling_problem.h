@@ -18,7 +18,7 @@ namespace dismantle::sampling {
 /// Budget of one search, shared by all its trees.
 struct CheckBudget {
   CheckBudget(const PathQuery& query, const RunContext& context);
-  bool spent() const;   ///< cancelled, past the deadline, or too many checks
+  bool spent() const;   ///< cancelled, past the deadline, or no checks left
   Outcome why() const;  ///< the outcome when spent: cancelled or timeout
 
   std::uint64_t checks = 0;      ///< state checks
@@ -29,7 +29,7 @@ struct CheckBudget {
 
 /// Geometry of the query that does not depend on the state space.
 struct Surroundings {
-  /// `goal`: a displacement that has to be within the bounds as well.
+  /// `goal`: a displacement that the bounds must also contain.
   Surroundings(const PathQuery& query, const World& world, const Pose& goal = {});
   Mover mover;
   Aabb rest;                                 ///< box of all fixed parts, world
@@ -39,13 +39,13 @@ struct Surroundings {
   Aabb moving_box(const Pose& displacement) const;
 };
 
-/// One state space over one world, with OMPL's objects for it.
+/// One state space with its world and OMPL objects.
 class SamplingProblem {
  public:
   using StateType = DisplacementSpace::StateType;
 
-  /// A state is free when it penetrates no deeper than `max_penetration` (assembly units), or than the start does.
-  /// Motions are checked at every `step` of the space's metric.
+  /// A state is free when it penetrates no deeper than `max_penetration` (assembly units) or the start, whichever is
+  /// deeper. Motions are checked at every `step` of the space's metric.
   SamplingProblem(const PathQuery& query, MotionSpace motion, double max_penetration, double step, CheckBudget& budget,
                   const Pose& goal = {});
   SamplingProblem(const SamplingProblem&) = delete;
@@ -61,13 +61,13 @@ class SamplingProblem {
   bool is_free(const StateType& state);
   bool is_separated(const StateType& state);
   /// Share in [0, 1] of the motion that is free, in whole steps; 1: all of it. Stops early when the budget is spent.
-  /// `from` has to be free.
+  /// `from` must be free.
   double free_share(const StateType& from, const StateType& to);
   bool motion_is_free(const StateType& from, const StateType& to) { return free_share(from, to) >= 1; }
 
   /// The state after a displacement since the start.
   StateType state_after(const Pose& displacement) const;
-  /// A random separated state. Nothing if none was found.
+  /// A random separated state; nothing if none was found.
   std::optional<StateType> draw_disassembled(Rng& rng);
   /// The state moved out of the fixed parts' box on the given side, 0 to 5 for -x, +x, -y, ...
   StateType exit(const StateType& from, int side) const;
@@ -77,7 +77,7 @@ class SamplingProblem {
   /// Replaces states between two others by free straight motions (greedy halving). Deterministic.
   std::vector<StateType> shortcut(const std::vector<StateType>& states);
 
-  /// Fixed parts that blocked states, most often first, by a sample of the blocked states.
+  /// Fixed parts that blocked states, most frequent first, estimated from a sample of the blocked states.
   std::vector<PartId> blockers() const;
   /// Poses of the moving parts in `state`.
   std::vector<Pose> poses(const StateType& state) const;
@@ -95,7 +95,7 @@ class SamplingProblem {
   ompl::base::SpaceInformationPtr information_;
   CheckBudget& budget_;
   double step_ = 0, allowed_ = 0;
-  double deviation_ = 0;  // of a path from its edges: half of what the verifier allows beyond the states
+  double deviation_ = 0;  // largest deviation of a path from its edges: half of the tolerance that the states leave
   std::vector<Pose> start_;
   std::uint64_t blocked_ = 0;
   std::vector<StateType> blocked_states_;

@@ -1,4 +1,4 @@
-/// Search for a path in the space of displacements: shared by all geometric planners.
+/// Search for a path in the space of displacements, shared by all geometric planners.
 #pragma once
 
 #include <ompl/base/PlannerTerminationCondition.h>
@@ -20,7 +20,7 @@ namespace dismantle::sampling {
 
 using path::Motion;
 
-/// Parameters that every geometric planner has; a planner's own struct derives from this one.
+/// Parameters of every geometric planner; the planner's own struct derives from this one.
 struct SpaceParameters {
   Motion motion = Motion::automatic;
   double range = 1;
@@ -51,23 +51,23 @@ void describe_space(Schema<P>& s, const std::string& range_doc) {
       {.unit = "unit",
        .min = 1e-5,
        .max = 1,
-       .doc = "Distance of the state checks along a motion (table 7), as the largest displacement of any point of the "
-              "part. Smaller: thin obstacles are not missed, each motion costs more."});
+       .doc = "Distance between the state checks along a motion (table 7), as the largest displacement of any point of "
+              "the part. Smaller: thinner obstacles are detected, but each motion costs more."});
   s.add(
       "tolerance_share", inherited<P>(&SpaceParameters::tolerance_share),
       {.unit = "1",
        .min = 0,
        .max = 1,
        .doc =
-           "Share of verify.max_penetration, above the initial overlap, at which a state counts as colliding. Table 7 "
-           "has all of it; with less the verifier refuses fewer paths."});
+           "Share of verify.max_penetration beyond which a state counts as colliding, unless the start is deeper. "
+           "Table 7 uses all of it. Smaller: the verifier refuses fewer paths."});
   s.add("simplify", inherited<P>(&SpaceParameters::simplify),
-        {.doc = "Replace detours by straight motions that are free."});
+        {.doc = "Replace detours with free straight motions."});
   s.add("level_checks", inherited<P>(&SpaceParameters::level_checks),
         {.unit = "1",
          .min = 1,
-         .doc = "State checks for a search of depth 1 where the sequence planner limits depth; each further level "
-                "doubles them."});
+         .doc = "Limit of state checks for depth 1 when the sequence planner limits the depth. Each further level "
+                "doubles the limit."});
   s.add(
       "first_turn", inherited<P>(&SpaceParameters::first_turn),
       {.unit = "1",
@@ -76,34 +76,34 @@ void describe_space(Schema<P>& s, const std::string& range_doc) {
        .doc = "Advanced. State checks of the first turn of each space, with `motion: auto`. Each round doubles them."});
 }
 
-/// The structure that is grown in one state space until it holds a path: a tree, two trees, a roadmap.
+/// The structure grown in one state space until it holds a path: a tree, two trees, or a roadmap.
 class SpacePlanner {
  public:
   using StateType = SamplingProblem::StateType;
 
   virtual ~SpacePlanner() = default;
-  /// Continues until there is a path or `stop` returns true. The path leads from the start to a separated state; empty:
-  /// stopped.
+  /// Continues until there is a path or `stop` returns true. Returns the path from the start to a separated state; empty
+  /// if stopped.
   virtual std::vector<StateType> solve(const ompl::base::PlannerTerminationCondition& stop) = 0;
   /// The checker refused the motion of the last path from state `edge` - 1 to `edge`. It is not used again.
   virtual void discard(std::size_t edge) = 0;
   virtual std::uint64_t nodes() const = 0;
   virtual std::uint64_t iterations() const = 0;
-  /// Of the states reached from the start, the one whose centre is furthest from it. Nothing: not begun.
+  /// Of the states reached from the start, the one whose centre is furthest from it. Nothing before the first solve().
   virtual std::optional<StateType> farthest() const = 0;
 };
 
-/// One per state space. `rng` is its own.
+/// Called once per state space. `rng` is the planner's own.
 using MakeSpacePlanner = std::function<std::unique_ptr<SpacePlanner>(SamplingProblem& problem, const Rng& rng)>;
-/// Straight lines to try before anything is grown, as unit directions in the world. May be empty.
+/// Unit directions, in the world, of straight lines to try before the search. May be empty.
 using MakeLines = std::function<std::vector<Eigen::Vector3d>(const PathQuery& query)>;
 
 /// A search that continues until a path is accepted or the budget is spent. With Motion::automatic the planners of two
 /// spaces take turns. The checker gets the simplified path first, and the original one if that is refused. If both are
 /// refused, the edge at fault is discarded, and the search continues.
 ///
-/// Extra statistics: `iterations`, `lines` (tried). The cost is the number of state checks. The functions may be called
-/// as long as the search exists.
+/// Extra statistics: `iterations`, `lines` (tried). The cost is the number of state checks. The functions must remain
+/// callable while the search exists.
 std::unique_ptr<PathSearch> start_search(const PathQuery& query, RunContext& context, const SpaceParameters& parameters,
                                          const MakeSpacePlanner& make_planner, const MakeLines& make_lines = {});
 

@@ -9,17 +9,17 @@
 
 namespace dismantle::sampling {
 
-/// Nodes 0, 1, 2... in the order in which they are added, children after their parents. A root is its own parent.
+/// Nodes 0, 1, 2, ... in order of addition, children after their parents. A root is its own parent.
 class StateTree {
  public:
   using StateType = SamplingProblem::StateType;
 
-  /// `space` outlives this.
+  /// `space` must outlive this object.
   explicit StateTree(const DisplacementSpace& space) : space_(space) {}
 
   std::uint32_t add_root(const StateType& state);
   std::uint32_t add(const StateType& state, std::uint32_t parent);
-  /// Removes a node that is no root, with its subtree.
+  /// Removes a node other than a root, with its subtree.
   void discard(std::uint32_t node);
   void clear();
 

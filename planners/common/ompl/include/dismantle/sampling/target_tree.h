@@ -1,5 +1,4 @@
-/// A rapidly-exploring random tree as an OMPL planner with an exchangeable choice of goals: shared by `rrt` and
-/// `t_rrt`.
+/// A rapidly-exploring random tree as an OMPL planner with an exchangeable choice of goals.
 #pragma once
 
 #include <ompl/base/Planner.h>
@@ -21,17 +20,17 @@ class TargetRule {
  public:
   using StateType = SamplingProblem::StateType;
   struct Target {
-    std::uint32_t node = 0;  ///< to be extended ...
-    StateType state;         ///< ... towards this state
+    std::uint32_t node = 0;  ///< the node to extend
+    StateType state;         ///< towards this state
   };
   virtual ~TargetRule() = default;
-  /// Nothing: there is no goal worth trying, so a random state is taken.
+  /// Nothing if no goal is worth trying; the tree then extends towards a random state.
   virtual std::optional<Target> target(TargetTree& tree, Rng& rng) = 0;
 };
 
 /// LaValle 1998: in each iteration draw a state (or, with probability goal_bias, take a goal), and extend the nearest
-/// node towards it. An extension is kept up to its first state that is not free. Towards a random state it is `range`
-/// long at most; towards a goal it continues until it is blocked, with a node every `range`.
+/// node towards it. An extension is kept up to its first state that is not free. Towards a random state it is at most
+/// `range` long; towards a goal it continues until it is blocked, with a node every `range`.
 ///
 /// Ends as soon as a node satisfies the problem's goal. solve() may be called again and continues with the same tree.
 /// All random numbers come from the generator given.
@@ -49,7 +48,7 @@ class TargetTree final : public ompl::base::Planner {
   void clear() override;
   void getPlannerData(ompl::base::PlannerData& data) const override;
 
-  /// Nodes from the root to the one that solve() ended with; empty before.
+  /// Nodes from the root to the node at which solve() ended; empty before.
   const std::vector<std::uint32_t>& solution() const { return solution_; }
   /// Removes a node other than the root, with its subtree.
   void discard(std::uint32_t node) { tree_.discard(node); }

@@ -10,8 +10,8 @@
 namespace dismantle::sampling {
 
 /// The current node is the one nearest to a random state. Its goal is the nearest state with the same orientation whose
-/// box is outside the box of the fixed parts. A node that was extended to its nearest exit gets the next nearest one
-/// the next time, because the same extension would end in the same state.
+/// box is outside the box of the fixed parts. A node already extended towards its nearest exit gets the next nearest one
+/// the next time, because repeating the extension would end in the same state.
 class NearestExit final : public TargetRule {
  public:
   explicit NearestExit(SamplingProblem& problem) : problem_(problem) {}
@@ -22,7 +22,7 @@ class NearestExit final : public TargetRule {
   std::vector<std::uint8_t> tried_;  ///< by node: number of its exits that were tried
 };
 
-/// The six exits of the box, nearest first; of equal ones the lower side (-x, +x, -y, ...).
+/// The six exits of the box, nearest first; of equal ones, the lower side first (-x, +x, -y, ...).
 std::array<int, 6> exits_by_distance(const SamplingProblem& problem, const SamplingProblem::StateType& from);
 
 }  // namespace dismantle::sampling

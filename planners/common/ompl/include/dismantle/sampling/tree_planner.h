@@ -1,4 +1,4 @@
-/// Search for a path by growing trees: shared by the tree planners.
+/// Search for a path by growing trees, shared by the tree planners.
 #pragma once
 
 #include <functional>
@@ -10,12 +10,12 @@
 
 namespace dismantle::sampling {
 
-/// Parameters that every tree planner has; a planner's own struct derives from this one.
+/// Parameters of every tree planner; the planner's own struct derives from this one.
 struct TreeParameters : SpaceParameters {
   double goal_bias = 0.05;
 };
 
-/// Declares them for a struct that derives from TreeParameters. `goal_doc`: what the goal is.
+/// Declares the parameters of a struct that derives from TreeParameters. `goal_doc`: doc of `goal_bias`.
 template <class P>
 void describe_tree(Schema<P>& s, const std::string& goal_doc) {
   describe_motion(s);
@@ -25,7 +25,7 @@ void describe_tree(Schema<P>& s, const std::string& goal_doc) {
       s, "Longest extension towards a random state, and distance of the nodes towards a goal. Larger: fewer nodes.");
 }
 
-/// How a planner chooses goals: one rule per tree. `rng` is the rule's own.
+/// Makes the rule by which a tree chooses its goals. `rng` is the rule's own.
 using MakeRule = std::function<std::unique_ptr<TargetRule>(SamplingProblem& problem, Rng rng)>;
 
 /// start_search with one tree in each space. When a path is refused, the subtree behind the edge at fault is discarded.

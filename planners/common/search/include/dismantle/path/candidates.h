@@ -1,4 +1,4 @@
-/// Showing forms of one path to the checker until it accepts one.
+/// Shows forms of one path to the checker until it accepts one.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@
 
 namespace dismantle::path {
 
-/// What happened to a candidate.
+/// The checker's answers about the forms of one path.
 struct Shown {
   bool accepted = false;
-  PathCheck last{};  ///< the last refusal, and ...
-  Path path{};       ///< ... the form that it is about
+  PathCheck last{};  ///< of the last form shown
+  Path path{};       ///< the last form shown
 };
 
-/// `form(k)`: the k-th form of the path, nothing when there are no more.
-/// `learn(check, path)`: takes note of a refusal; is the next form to be shown?
-/// `accept(verified)` takes over what was accepted; refusals are counted.
+/// `form(k)`: returns the k-th form of the path; nothing if there are no more.
+/// `learn(check, path)`: called for each refused form; returns true to show the next form.
+/// `accept(verified)`: receives the accepted path. `refused`: incremented with each refusal.
 template <class Form, class Learn, class Accept>
 Shown show_forms(const PathChecker& checker, std::uint64_t& refused, const Form& form, const Learn& learn,
                  const Accept& accept) {

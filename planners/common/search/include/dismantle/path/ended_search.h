@@ -1,4 +1,4 @@
-/// A search that is over before it begins.
+/// A search that ends before it begins.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@ class EndedSearch final : public PathSearch {
   PathResult result_;
 };
 
-/// The simulator lacks what the planner needs.
+/// For a simulator that lacks a capability the planner needs.
 inline std::unique_ptr<PathSearch> unsupported(std::string message) {
   return std::make_unique<EndedSearch>(PathResult::failure(Outcome::unsupported, std::move(message)));
 }

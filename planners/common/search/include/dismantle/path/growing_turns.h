@@ -1,6 +1,6 @@
-/// Searches that take turns, each round twice as long as the last: none of them
-/// can hold up the others for longer than a constant factor of what the best
-/// one needs alone (Luby, Sinclair and Zuckerman 1993).
+/// Searches that take turns, each round twice as long as the last. The total
+/// work is at most a constant factor of the work that the best search needs
+/// alone (Luby, Sinclair and Zuckerman 1993).
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace dismantle::path {
 
-/// The whole work that a depth limit allows where each level doubles it:
-/// `first` at depth 1; unlimited at depth 0.
+/// Total work allowed by a depth limit: `first` at depth 1, doubled with each
+/// further level, unlimited at depth 0.
 inline std::uint64_t doubled_per_level(double first, unsigned depth) {
   const std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
   if (depth == 0) return unlimited;
@@ -20,8 +20,8 @@ inline std::uint64_t doubled_per_level(double first, unsigned depth) {
   return most < 1e18 ? static_cast<std::uint64_t>(most) : unlimited;
 }
 
-/// Where a portion of work ends: after `portion` more (0: no limit), at `most`
-/// in all.
+/// The amount of work at which a portion ends: `portion` more than `done` (0: no
+/// limit), but at most `most`.
 inline std::uint64_t end_of_portion(std::uint64_t done, std::uint64_t portion, std::uint64_t most) {
   return portion > 0 && done < most && portion < most - done ? done + portion : most;
 }
@@ -31,10 +31,10 @@ class GrowingTurns {
   /// `first`: length of the turns in the first round, in units of work.
   GrowingTurns(std::size_t searches, std::uint64_t first) : searches_(searches), turn_(first) {}
 
-  /// Goes on where the last call stopped, until all have done `limit` work
-  /// together. `used()`: that work so far. `grow(i, until)`: search i works
-  /// until `used()` is at least `until`; true: all is over. Returns whether
-  /// grow() said so.
+  /// Continues where the last call stopped, until the total work of all
+  /// searches is `limit`. `used()`: total work so far. `grow(i, until)`: search
+  /// i works until `used()` is at least `until`; it returns true to end all
+  /// searches. Returns true if grow() did.
   template <class Used, class Grow>
   bool run(std::uint64_t limit, const Used& used, const Grow& grow) {
     while (used() < limit) {

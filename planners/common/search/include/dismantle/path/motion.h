@@ -1,4 +1,4 @@
-/// In which motions a search looks for a path.
+/// The motions with which a search looks for a path.
 #pragma once
 
 namespace dismantle::path {
@@ -6,7 +6,7 @@ namespace dismantle::path {
 enum class Motion {
   translation,  ///< R3, orientation locked
   rotation,     ///< SE(3)
-  automatic,    ///< a search of each kind, which take turns
+  automatic,    ///< one search of each kind; they take turns
 };
 
 }  // namespace dismantle::path

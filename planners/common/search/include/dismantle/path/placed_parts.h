@@ -1,4 +1,4 @@
-/// Parts where they are placed, and where a state of a simulation has them.
+/// Boxes and poses of parts in a scene or in a simulated state.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ inline bool contains(const std::vector<PlacedPart>& parts, PartId part) {
   return std::any_of(parts.begin(), parts.end(), [part](const PlacedPart& p) { return p.part == part; });
 }
 
-/// The bounding box; world axes, assembly units; empty without parts.
+/// Bounding box in world axes and assembly units; empty without parts.
 inline Aabb box_of(const Assembly& assembly, const std::vector<PlacedPart>& parts) {
   Aabb box;
   for (const PlacedPart& p : parts)
@@ -20,7 +20,7 @@ inline Aabb box_of(const Assembly& assembly, const std::vector<PlacedPart>& part
   return box;
 }
 
-/// An instant of a path: the poses in their order.
+/// The poses in the order of the parts, as in an instant of a path.
 inline std::vector<Pose> poses_of(const std::vector<PlacedPart>& parts) {
   std::vector<Pose> poses;
   for (const PlacedPart& p : parts) poses.push_back(p.pose);

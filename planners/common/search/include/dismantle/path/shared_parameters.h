@@ -5,7 +5,7 @@
 
 namespace dismantle::path {
 
-/// A member that P has from a base class, as Schema<P> wants it: C++ does not convert it where a template is deduced.
+/// Converts a member pointer of a base class to one of P, as Schema<P> needs: template deduction does not convert it.
 template <class P, class Base, class M>
 constexpr M P::*inherited(M Base::*member) {
   return member;
@@ -17,17 +17,17 @@ void add_thinning(Schema<P>& s, double P::*member) {
         {.unit = "unit",
          .min = 0,
          .max = 0.01,
-         .doc = "Poses that the rest of the path reproduces this closely are dropped."});
+         .doc = "Poses that the rest of the path reproduces to within this distance are dropped."});
 }
 
-/// The default is the planner's own.
+/// Each planner sets its own default.
 template <class P>
 void add_level_steps(Schema<P>& s, std::int64_t P::*member) {
   s.add("level_steps", member,
         {.unit = "1",
          .min = 1,
-         .doc = "Simulated time steps for a search of depth 1 where the sequence planner limits depth; each further "
-                "level doubles them."});
+         .doc = "Limit of simulated time steps for depth 1 when the sequence planner limits the depth. Each further level "
+                "doubles the limit."});
 }
 
 }  // namespace dismantle::path

@@ -1,5 +1,4 @@
-/// Leaving out what lies between two waypoints where a direct motion joins
-/// them.
+/// Removes waypoints between two waypoints that a direct motion joins.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +10,9 @@
 
 namespace dismantle::path {
 
-/// From the start, the furthest waypoint that halving finds to be joined with
-/// the last one kept. `direct(a, b)`: is the motion between these waypoints
-/// free?
+/// From each kept waypoint, tries a direct motion to the last one and halves the
+/// number of waypoints in between until it is free. `direct(a, b)`: true if the
+/// motion between these waypoints is free.
 template <class Waypoint, class Direct>
 std::vector<Waypoint> shortcut_by_halving(const std::vector<Waypoint>& waypoints, const Direct& direct) {
   std::vector<Waypoint> kept;
@@ -28,8 +27,8 @@ std::vector<Waypoint> shortcut_by_halving(const std::vector<Waypoint>& waypoints
   return kept;
 }
 
-/// Pieces of a half of the waypoints first, then of a quarter, and so on.
-/// `stop()`: no time is left.
+/// Tries pieces of half of the waypoints first, then of a quarter, and so on.
+/// `stop()`: true to end early.
 template <class Waypoint, class Direct, class Stop>
 void shortcut_pieces(std::vector<Waypoint>& waypoints, const Direct& direct, const Stop& stop) {
   for (std::size_t piece = waypoints.size() / 2; piece > 1 && !stop(); piece /= 2)
@@ -41,9 +40,9 @@ void shortcut_pieces(std::vector<Waypoint>& waypoints, const Direct& direct, con
         k += piece - 1;
 }
 
-/// Between any two waypoints (Geraerts and Overmars 2007, section 3.2), `tries`
-/// times. `direct(a, b)`, of indices a + 1 < b: true, and what has to lie
-/// between them then, if they are to be joined.
+/// Tries `tries` random pairs of waypoints (Geraerts and Overmars 2007, section
+/// 3.2). `direct(a, b, between)`, with indices a + 1 < b: returns true if they
+/// can be joined, and sets the new waypoints between them.
 template <class Waypoint, class Direct, class Stop>
 void shortcut_at_random(std::vector<Waypoint>& waypoints, std::int64_t tries, Rng& rng, const Direct& direct,
                         const Stop& stop) {

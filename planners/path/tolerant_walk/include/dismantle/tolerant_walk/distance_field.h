@@ -14,9 +14,9 @@
 
 namespace dismantle::tolerant_walk {
 
-/// Two grids: a fine one near the surface, and a coarse one that tells where that is. Values are interpolated, so they
-/// are wrong by up to about a third of a cell at edges. A value does not depend on earlier queries. Memory grows with
-/// use. Safe to use from several threads.
+/// Two grids: a fine grid near the surface, and a coarse grid that tells how far away the surface is. Values are
+/// interpolated; at edges their error is up to about a third of a cell. A value does not depend on earlier queries.
+/// Memory grows with use. Thread-safe.
 class DistanceField {
  public:
   DistanceField(std::shared_ptr<const Mesh> mesh, const Resolution& resolution);
@@ -27,7 +27,7 @@ class DistanceField {
   double measured(const Eigen::Vector3d& p) const;
   double error() const {
     return 0.35 * fine_.cell();
-  }  ///< bound of the error of at() near the surface, found by trials
+  }  ///< bound of the error of at() near the surface, found by experiment
   const Resolution& resolution() const { return resolution_; }
   const TriangleBvh& bvh() const { return bvh_; }
   const Mesh& mesh() const { return *mesh_; }
@@ -41,7 +41,7 @@ class DistanceField {
     ~Grid();
     Grid(const Grid&) = delete;
     Grid& operator=(const Grid&) = delete;
-    /// With a field, missing values are computed; without one, the result is not a number where they are missing.
+    /// Computes missing values with `field`. If `field` is null, the result is NaN where values are missing.
     double at(const Eigen::Vector3d& p, const DistanceField* field);
     double cell() const { return cell_; }
     std::size_t bytes() const { return count_ * sizeof(known_[0]) + blocks_known_ * sizeof(Block); }
@@ -49,11 +49,11 @@ class DistanceField {
    private:
     static constexpr int kCells = 8;  // along the edge of a block; a power of two, so that divisions are fast
     static constexpr std::size_t kBlock = kCells + 1;  // grid points; neighbouring blocks share a face
-    /// Not a number: not computed yet. All threads compute the same value, so the order of writes does not matter.
+    /// NaN: not computed yet. All threads compute the same value, so the order of writes does not matter.
     using Block = std::array<std::atomic<float>, kBlock * kBlock * kBlock>;
     struct Known {
       int sign = 0;  ///< 0: unknown
-      double bound;  ///< of the distance from the surface
+      double bound;  ///< upper bound of the distance from the surface
     };
     Known from_neighbours(const Block& block, std::ptrdiff_t place) const;
     Block& make(std::atomic<Block*>& place);
@@ -65,7 +65,7 @@ class DistanceField {
     std::unique_ptr<std::atomic<Block*>[]> known_;
     std::atomic<std::size_t> blocks_known_{0};
   };
-  /// `sign`: 0 if unknown. `bound`: the distance is usually less; the query is faster then.
+  /// `sign`: 0 if unknown. `bound`: expected upper bound of the distance; the query is faster if it holds.
   double measured(const Eigen::Vector3d& p, int sign, double bound) const;
 
   Resolution resolution_;
@@ -74,7 +74,7 @@ class DistanceField {
   Aabb box_, around_;
   bool closed_;
   Grid coarse_, fine_;
-  double surely_fine_;  ///< below this distance the coarse grid cannot report that the surface is far
+  double surely_fine_;  ///< below this distance the coarse grid never reports a distant surface
 };
 
 }  // namespace dismantle::tolerant_walk

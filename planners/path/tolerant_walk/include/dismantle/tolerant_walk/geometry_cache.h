@@ -20,18 +20,17 @@ namespace dismantle::tolerant_walk {
 /// How densely surfaces are sampled.
 struct Sampling {
   Resolution resolution;
-  std::size_t max_samples = 5'000;  ///< of one part around another; a fifth of that all over it
+  std::size_t max_samples = 5'000;  ///< of a part near another one; a fifth as many on its whole surface
 };
 
-/// Fields of parts, and probes of pairs at their poses. They follow from the keys alone, so results do not depend on
-/// what is cached. Parts with the same mesh share its field. Safe to use from several threads.
+/// Distance fields of parts, and probes of pairs at their poses. The keys determine them, so results do not depend on
+/// the content of the cache. Parts with the same mesh share a field. Thread-safe.
 class GeometryCache {
  public:
-  /// When more than about `most_bytes` are cached, make_room() drops everything.
+  /// make_room() drops everything once more than about `most_bytes` are cached.
   explicit GeometryCache(std::size_t most_bytes = std::size_t{512} << 20) : most_bytes_(most_bytes) {}
 
-  /// The cache that all planners of this process share, also plugins of different files. It lives as long as one of
-  /// them holds it.
+  /// The cache that all planners of this process share, across plugin libraries. It is deleted with its last holder.
   static std::shared_ptr<GeometryCache> shared();
 
   /// Everything that the probes of one mesh against another, or against any other, depend on.
@@ -47,13 +46,13 @@ class GeometryCache {
     bool exact_;
   };
 
-  /// To be called between searches. Objects in use stay alive with their owners.
+  /// Call it between searches. Objects in use stay alive with their owners.
   void make_room();
   std::shared_ptr<DistanceField> field(const std::shared_ptr<const Mesh>& mesh, const Resolution& resolution);
-  /// `make` is called in this thread if they are not cached, and may use the cache. Both meshes need a field here,
-  /// which keeps them alive.
+  /// Calls `make` in this thread if the probes are not cached; `make` may use the cache. Both meshes need a field in
+  /// the cache, which keeps them alive.
   std::shared_ptr<const Probes> probes(const Pair& pair, const std::function<Probes()>& make);
-  std::size_t bytes() const;  ///< approximate memory of what is cached
+  std::size_t bytes() const;  ///< approximate
 
  private:
   std::size_t bytes_under_lock() const;

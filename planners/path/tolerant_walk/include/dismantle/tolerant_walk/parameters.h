@@ -6,7 +6,7 @@
 
 namespace dismantle::tolerant_walk {
 
-/// What every planner that grows a PoseTree has; its own struct derives from this one.
+/// Parameters of every planner that grows a PoseTree; the planner's own struct derives from this one.
 struct TreeParameters {
   double tolerance_share = 0.8;
   double step = 0.006;
@@ -35,15 +35,14 @@ void describe_poses(Schema<P>& s) {
       {.unit = "1",
        .min = 0,
        .max = 1,
-       .doc = "Share of verify.max_penetration up to which poses may be deeper than when assembled. Depth is measured "
-              "at samples, so with a larger share the verifier refuses more paths; with a smaller one tight fits stay "
-              "closed."});
+       .doc = "Share of verify.max_penetration by which a pose may penetrate deeper than the assembled pose does. Depth "
+              "is measured at samples. Larger: the verifier refuses more paths. Smaller: tight fits stay closed."});
   s.add("step", inherited<P>(&TreeParameters::step),
         {.unit = "unit",
          .min = 1e-5,
          .max = 1,
-         .doc = "Scale of the steps of an extension: how far a point of the part moves in one of them. Smaller: "
-                "narrower passages are found, at more state checks."});
+         .doc = "Scale of the steps of an extension: how far a point of the part moves in one step. Smaller: narrower "
+                "passages are found, with more state checks."});
 }
 
 /// Declares how poses are checked.
@@ -56,21 +55,21 @@ void describe_samples(Schema<P>& s) {
          .max = 100,
          .doc =
              "Advanced. Edge of the cells of the distance fields, as a multiple of verify.max_penetration; samples are "
-             "three cells apart at least. Smaller: fewer paths are refused; time and memory of the fields grow with "
+             "at least three cells apart. Smaller: fewer paths are refused; time and memory of the fields grow with "
              "the square."});
   s.add("max_samples", inherited<P>(&TreeParameters::max_samples),
         {.unit = "1",
          .min = 100,
          .max = 1e7,
-         .doc = "Advanced. Samples of a part around another one; a fifth of that all over it. More: fewer paths are "
-                "refused, each state check costs more."});
+         .doc = "Advanced. Maximum number of samples of a part near another one; a fifth as many are on its whole "
+                "surface. More: fewer paths are refused, each state check costs more."});
   s.add(
       "overlap_reach", inherited<P>(&TreeParameters::overlap_reach),
       {.unit = "overlap",
        .min = 0,
        .max = 1000,
-       .doc = "Advanced. For a group thinner than its initial overlap: how far from the start that overlap is allowed, "
-              "as a multiple of it, plus two cells."});
+       .doc = "Advanced. For a group thinner than its initial overlap: distance from the start up to which that overlap "
+              "is allowed, as a multiple of the overlap, plus two cells."});
 }
 
 /// Declares how the steps of an extension vary.
@@ -94,23 +93,23 @@ void describe_extensions(Schema<P>& s) {
       {.unit = "1",
        .min = 1,
        .max = 10,
-       .doc = "Advanced. Each step of an extension is this many times as long as the one before, as long as poses are "
-              "valid. Larger: free space is crossed in fewer state checks, with more of them wasted at obstacles."});
+       .doc = "Advanced. Ratio of each step of an extension to the step before, while poses are valid. Larger: free "
+              "space is crossed with fewer state checks, but more of them are wasted at obstacles."});
   s.add(
       "longest_step", inherited<P>(&TreeParameters::longest_step),
       {.unit = "step",
        .min = 1,
        .max = 1000,
-       .doc = "Advanced. Bound of the steps of an extension, as a multiple of `step`. Poses between two steps are not "
-              "checked, so longer steps may pass through thin obstacles, which the verifier refuses."});
+       .doc = "Advanced. Longest step of an extension, as a multiple of `step`. Poses between two steps are not "
+              "checked, so longer steps may pass through thin obstacles; the verifier refuses such paths."});
   s.add("extension_steps", inherited<P>(&TreeParameters::extension_steps),
         {.unit = "1",
          .min = 1,
          .max = 1e6,
-         .doc = "Advanced. Most steps of one extension. Larger: a part that moves freely gets further at a time."});
+         .doc = "Advanced. Maximum number of steps of one extension. Larger: a part that moves freely gets further."});
 }
 
-/// Declares the others.
+/// Declares how paths are shortened and repaired, and when a search resumes or gives up.
 template <class P>
 void describe_paths(Schema<P>& s) {
   using path::inherited;
@@ -125,8 +124,8 @@ void describe_paths(Schema<P>& s) {
        .min = 0.01,
        .max = 1000,
        .doc =
-           "Advanced. Distance of the state checks along a shortcut, as a multiple of verify.max_penetration. Larger: "
-           "faster, with more paths refused."});
+           "Advanced. Distance between the state checks along a shortcut, as a multiple of verify.max_penetration. "
+           "Larger: faster, but more paths are refused."});
   path::add_thinning(s, inherited<P>(&TreeParameters::thinning));
   s.add("max_refusals", inherited<P>(&TreeParameters::max_refusals),
         {.unit = "1", .min = 1, .max = 1e6, .doc = "Paths that the verifier may refuse before the search gives up."});
@@ -135,15 +134,16 @@ void describe_paths(Schema<P>& s) {
       {.unit = "1",
        .min = 0,
        .max = 1000,
-       .doc = "Advanced. Number of times that a refused path is shortened again, after the refused place has become a "
-              "sample. After that its branch is cut."});
+       .doc = "Advanced. Number of times that a refused path is shortened again with the refused place as a new sample. "
+              "After that its branch is cut."});
   s.add(
       "resume_share", inherited<P>(&TreeParameters::resume_share),
       {.unit = "1",
        .min = 0,
        .max = 1,
-       .doc = "Advanced. A search resumes an earlier tree only if the obstacles of at least this share of its invalid "
-              "poses since its last progress have left. Smaller: trees are resumed more often, also in dead ends."});
+       .doc = "Advanced. A search resumes an earlier tree only if at least this share of the tree's invalid poses since "
+              "its last progress was due to parts that have left. Smaller: trees are resumed more often, even from "
+              "dead ends."});
 }
 
 struct Parameters : TreeParameters {
@@ -167,17 +167,18 @@ struct Parameters : TreeParameters {
           {.unit = "1",
            .min = 0,
            .max = 1,
-           .doc = "Advanced. Share of these extensions that lead further in that direction; the others are random."});
+           .doc = "Advanced. Share of the `outward` extensions that move on in that direction; the others are random."});
     s.add("direct", &Parameters::direct,
           {.unit = "1",
            .min = 0,
            .max = 1,
-           .doc = "Advanced. Share of the extensions that lead further without any random motion."});
+           .doc = "Advanced. Share of the extensions in an outward direction that have no random component."});
     s.add("recent", &Parameters::recent,
           {.unit = "1",
            .min = 0,
            .max = 1,
-           .doc = "Advanced. Share of the other extensions that start from one of the `newest` nodes instead of any."});
+           .doc = "Advanced. Share of the extensions without `outward` that start from one of the `newest` nodes; the rest "
+                  "start from any node."});
     s.add("newest", &Parameters::newest,
           {.unit = "1", .min = 1, .max = 1e9, .doc = "Advanced. Number of nodes that count as new."});
     s.add("state_checks", &Parameters::state_checks,
@@ -188,8 +189,8 @@ struct Parameters : TreeParameters {
            .max = 1e12,
            .min_open = true,
            .doc =
-               "`state_checks` of a search of depth 1, where the sequence planner limits the depth. Each further level "
-               "doubles them, up to `state_checks`."});
+               "Limit of state checks for depth 1 when the sequence planner limits the depth. Each further level doubles "
+               "the limit, up to `state_checks`."});
     describe_extensions(s);
     describe_samples(s);
     describe_paths(s);

@@ -14,16 +14,16 @@
 
 namespace dismantle::tolerant_walk {
 
-/// A search grows it: it selects nodes and steps. Several moving parts move as one rigid body.
+/// The search that owns the tree selects nodes and steps. Several moving parts move as one rigid body.
 class PoseTree {
  public:
-  /// A displacement of all moving parts from where they start (node 0); assembly units, world frame.
+  /// A displacement of all moving parts from their start (node 0); assembly units, world frame.
   struct Node {
     Pose pose;
-    Eigen::Vector3d center;  ///< of the moving parts, there
+    Eigen::Vector3d center;  ///< of the moving parts at this pose
     std::uint32_t parent = 0;
-    bool cut = false;                ///< the verifier has refused the branch to here
-    std::optional<PartId> cut_by{};  ///< the fixed part because of which, if known
+    bool cut = false;                ///< the verifier has refused the branch to this node
+    std::optional<PartId> cut_by{};  ///< the fixed part that caused the refusal, if known
   };
   /// A small displacement: translation of the centre of the moving parts, and rotation vector about it (rad).
   struct Step {
@@ -33,8 +33,8 @@ class PoseTree {
   /// The tree of an unsuccessful search.
   class SearchTreeState final : public SearchState {
    public:
-    /// Is the part now gone that was the obstacle of at least this share of the invalid poses since the last progress?
-    /// If not, a new tree with other random numbers is better than this one, which would stay in its dead ends.
+    /// True if parts that have left caused at least this share of the invalid poses since the last progress. Otherwise
+    /// a new tree with other random numbers is better: this one would stay in its dead ends.
     bool obstacles_removed(const Scene& scene, double share) const;
 
    private:
@@ -47,47 +47,47 @@ class PoseTree {
     std::vector<Node> nodes;
     std::vector<RefusedPlace> refused_places;
     std::map<PartId, std::uint64_t> touched, blocked_since_progress;
-    std::uint64_t state_checks = 0;  ///< of this search and of those that it resumed
+    std::uint64_t state_checks = 0;  ///< including those of the searches that it resumed
   };
 
-  /// All arguments outlive this.
+  /// All arguments must outlive this object.
   PoseTree(const TreeParameters& parameters, const PathQuery& query, RunContext& context, Rng& rng, Overlap overlap,
            GeometryCache& cache);
 
   const Node& operator[](std::uint32_t node) const { return nodes_[node]; }
   std::uint32_t size() const { return static_cast<std::uint32_t>(nodes_.size()); }
-  const Eigen::Vector3d& center() const { return center_; }  ///< of the moving parts at the start; world
-  double radius() const { return radius_; }                  ///< largest distance of their points from it
+  const Eigen::Vector3d& center() const { return center_; }  ///< of the moving parts at the start, in the world
+  double radius() const { return radius_; }                  ///< largest distance of a moving part's point from it
   std::uint64_t state_checks() const { return state_checks_; }
   /// State checks that resume() has saved.
   std::uint64_t spared() const { return spared_; }
-  /// Distance queries of all state checks: one takes from hundreds to tens of thousands.
+  /// Distance queries of all state checks: a check takes hundreds to tens of thousands.
   std::uint64_t distance_queries() const { return validity_.distance_queries(); }
   bool halted() const;
-  /// The verifier has refused as many paths as it may.
+  /// The number of refused paths has reached its limit.
   bool given_up() const { return refused_ >= static_cast<std::uint64_t>(parameters_.max_refusals); }
 
-  /// To be called first. Takes over the tree of an earlier search of the same moving parts from the same poses, among
-  /// these fixed parts and others that have left since. Branches that were cut because of those are open again.
+  /// Call it before any other function. Takes over the tree of an earlier search for the same moving parts at the same
+  /// poses, with these fixed parts and others that have left since. Reopens branches that were cut because of the
+  /// latter.
   void resume(const SearchTreeState& state);
   std::shared_ptr<const SearchTreeState> search_state() const;
 
-  /// The search has made progress, so the obstacles until now are not what blocks it.
+  /// The search has made progress, so the obstacles met so far do not block it.
   void note_progress() { blocked_since_progress_.clear(); }
 
   bool state_valid(const Pose& displacement);
-  /// The pose after a step from a node, multiplied by `scale`.
+  /// The pose after a step from a node; the step is multiplied by `scale`.
   Pose extended(std::uint32_t node, const Step& step, double scale) const;
   std::uint32_t add(const Pose& pose, std::uint32_t parent);
-  /// Are the hulls of the moving and of the fixed parts disjoint?
+  /// True if the hulls of the moving and of the fixed parts are disjoint.
   bool separated(const Pose& displacement) const;
 
-  /// True when the checker accepts a path to the node; then `result` holds it. Otherwise some nodes of its branch are
-  /// cut.
+  /// True if the checker accepts a path to the node; `result` then holds it. Otherwise nodes of its branch are cut.
   bool find_verified_path(std::uint32_t node, PathResult& result);
   /// Sets the outcome of a search without success.
   void set_failure(PathResult& result) const;
-  /// Sets statistics, obstacles and state. `best`: the node that has come furthest.
+  /// Sets statistics, obstacles and search state. `best`: the node furthest from the start.
   void fill(std::uint32_t best, PathResult& result) const;
   std::vector<Pose> poses(const Pose& displacement) const;
 
@@ -114,9 +114,9 @@ class PoseTree {
   std::vector<path::Ball> bodies_;
   std::vector<Node> nodes_;
   std::uint64_t state_checks_ = 0, refused_ = 0, spared_ = 0;
-  std::size_t resumed_ = 0;  // nodes
+  std::size_t resumed_ = 0;  // number of nodes taken over by resume()
   std::vector<SearchTreeState::RefusedPlace> refused_places_;
-  std::map<PartId, std::uint64_t> touched_, blocked_since_progress_;  // by fixed part, invalid poses
+  std::map<PartId, std::uint64_t> touched_, blocked_since_progress_;  // number of invalid poses by fixed part
 };
 
 }  // namespace dismantle::tolerant_walk

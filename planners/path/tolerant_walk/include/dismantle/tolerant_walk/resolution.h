@@ -1,28 +1,28 @@
-/// The lengths that samples and distance fields have in common.
+/// Lengths shared by samples and distance fields.
 #pragma once
 
 namespace dismantle::tolerant_walk {
 
-/// All of them follow from one: the edge of a cell of the distance fields, in assembly units.
+/// All lengths follow from the cell edge of the distance fields, in assembly units.
 struct Resolution {
   double cell = 0.01;
 
-  /// Smallest distance of samples: fields change little over a few cells.
+  /// Smallest distance between samples: fields change little over a few cells.
   double sample_spacing() const { return 3 * cell; }
-  /// Parts that are this near to each other when assembled are sampled densely there.
+  /// Parts are sampled densely where they are this near to each other when assembled.
   double near() const { return 2 * sample_spacing(); }
-  /// Largest radius of the balls that stand for thin walls. Thicker walls are seen by the edges of the other part.
+  /// Largest radius of the medial balls that detect thin walls. Samples on the other part's edges detect thicker walls.
   double thin_radius() const { return 8 * cell; }
-  /// Width of the band around a part where its field is known. Wider than thin_radius(), which is the largest distance
-  /// that a sample has to keep.
+  /// Width of the band around a part where its field is known. Must exceed thin_radius(), the largest distance that a
+  /// sample has to keep.
   double band() const { return 10 * cell; }
   /// Beyond this distance from the surface the coarse grid is precise enough.
   double coarse_distance() const { return 12 * cell; }
-  /// Samples this near to a refused one become stricter together with it.
+  /// A refused sample makes the samples within this distance stricter, too.
   double neighborhood() const { return 5 * cell; }
-  /// Least step of a ray through a field, and margin for its error.
+  /// Smallest step of a ray through a field, and margin for the field's error.
   double ray_step() const { return cell / 5; }
-  /// A ray that is this near to the surface has reached it.
+  /// A ray has reached the surface when it is this near to it.
   double on_surface() const { return cell / 20; }
 };
 

@@ -15,8 +15,8 @@ inline constexpr Capabilities kNeeds{};
 
 class RrtSearch final : public PathSearch {
  public:
-  /// All arguments outlive this. Several moving parts move as one rigid body. Ends with `depth_limit` after
-  /// `max_state_checks`; those of the search that it resumes are included, up to a half. Ends with `exhausted` when the
+  /// All arguments must outlive this object. Several moving parts move as one rigid body. Ends with `depth_limit` after
+  /// `max_state_checks`; the checks of a resumed search count, up to half of that limit. Ends with `exhausted` when the
   /// checker has refused too many paths.
   RrtSearch(const Parameters& parameters, const PathQuery& query, RunContext& context, GeometryCache& cache,
             std::uint64_t max_state_checks);
@@ -37,7 +37,7 @@ class RrtSearch final : public PathSearch {
   const PathQuery& query_;
   Rng rng_;
   PoseTree tree_;
-  std::array<std::uint32_t, 26> furthest_{};  ///< nodes, by direction
+  std::array<std::uint32_t, 26> furthest_{};  ///< the furthest node in each direction
   bool resumed_ = false, begun_ = false;
   std::uint64_t max_state_checks_;
   PathResult result_;

@@ -13,37 +13,37 @@
 
 namespace dismantle::tolerant_walk {
 
-/// Where a pair may penetrate as deeply as when assembled. A part that is thinner than its overlap passes through walls
-/// if that is everywhere; a part that is held with interference along its whole path never leaves if it is not.
+/// Where a pair may penetrate as deeply as when assembled. With `everywhere`, a part thinner than its overlap could pass
+/// through walls. With `near_start`, a part with interference along its whole path could never leave.
 enum class Overlap { everywhere, near_start };
 
-/// A necessary condition, by samples: no pair penetrates deeper than its initial overlap plus `max_penetration`. It is
-/// computed from the original triangles, and shares no code with the verifier. Probes of a pair are made when its parts
-/// first come near each other. Not safe to use from several threads.
+/// Checks a necessary condition at samples: no pair penetrates deeper than its initial overlap plus `max_penetration`.
+/// Uses the original triangles and shares no code with the verifier. The probes of a pair are made when its parts first
+/// come near each other. Not thread-safe.
 class ValidityChecker {
  public:
-  /// `assembly` and `cache` must outlive it. `overlap_reach`: with Overlap::near_start, an overlap is allowed within
-  /// this many times its depth.
+  /// `assembly` and `cache` must outlive this object. `overlap_reach`: with Overlap::near_start, an overlap is allowed
+  /// within this many times its depth of the start.
   ValidityChecker(const Assembly& assembly, const Scene& scene, double max_penetration, Overlap overlap,
                   GeometryCache& cache, const Sampling& sampling = {}, double overlap_reach = 3);
 
   /// `displacement` acts on all moving parts at their poses in the scene.
   bool is_valid(const Pose& displacement);
-  /// The fixed part because of which a displacement was invalid last.
+  /// The fixed part that made the last invalid displacement invalid.
   std::optional<PartId> obstacle() const { return obstacle_; }
-  /// Number of distance queries until now: the cost in a unit that does not depend on the machine.
+  /// Number of distance queries so far: a measure of cost that does not depend on the machine.
   std::uint64_t distance_queries() const { return distance_queries_; }
-  /// Adds a place that the verifier has refused: `point` (assembled frame of `part`) was too deep in `other` at that
-  /// displacement. From now on this point and those near it have to stay less deep, except at the start. True: the
-  /// tolerance of the whole pair was halved as well, because it was refused before. Poses that were valid may then be
-  /// invalid.
+  /// Adds a place that the verifier has refused: `point` (assembled frame of `part`) was too deep in `other` at
+  /// `displacement`. From now on this point and its neighbours must stay less deep, except at the start. Returns true
+  /// if the tolerance of the whole pair was halved as well, because of an earlier refusal. Poses that were valid may
+  /// then be invalid.
   bool add_contact_sample(PartId part, PartId other, const Eigen::Vector3d& point, const Pose& displacement);
 
  private:
   struct Pair {
     Probes of_moving, of_fixed;
-    Allowance allowance;            ///< of these
-    bool overlap_at_start = false;  ///< probes that are deeper at the start are allowed near there only
+    Allowance allowance;            ///< of these probes
+    bool overlap_at_start = false;  ///< probes may exceed the allowance only near the start
     unsigned refused = 0;           ///< number of refusals by the verifier
   };
   DistanceField& field(PartId part);
@@ -71,10 +71,10 @@ class ValidityChecker {
   Sampling sampling_;
   double overlap_reach_;
   std::map<PartId, std::shared_ptr<DistanceField>> fields_;
-  std::map<std::pair<PartId, PartId>, Pair> pairs_;  // moving, fixed
+  std::map<std::pair<PartId, PartId>, Pair> pairs_;  // by moving and fixed part
   std::optional<PartId> obstacle_;
   std::uint64_t distance_queries_ = 0;
-  std::size_t first_ = 0;  // the fixed part that is checked first: the last obstacle
+  std::size_t first_ = 0;  // index of the fixed part to check first: the last obstacle
 };
 
 }  // namespace dismantle::tolerant_walk
