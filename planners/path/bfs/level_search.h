@@ -33,8 +33,9 @@ struct Levels {
   std::uint64_t work = 0;  ///< simulated steps spent so far
 };
 
-/// The tree grows level by level. Each action is applied to a state in planning time steps, each from rest, until the part
-/// is separated or similar to a state on its own path from the start. The end of the run is a state of the next level.
+/// The tree grows level by level. Each action is applied to a state in planning time steps, each from rest, until the
+/// part is separated or similar to a state on its own path from the start. The end of the run is a state of the next
+/// level.
 class LevelSearch {
  public:
   enum class End { searched, solved, paused, stopped, refused };

@@ -40,10 +40,11 @@ struct Parameters : push::SearchParameters {
           {.unit = "unit",
            .min = 0,
            .min_open = true,
-           .doc = "With `variant: published`: the ends of two runs count as one state if they are nearer than this and differ "
-                  "in rotation by less than `distinct_rotation`."});
+           .doc =
+               "With `variant: published`: two ends of runs are one state if they are nearer than this, and rotated by "
+               "less than `distinct_rotation`."});
     s.add("distinct_rotation", &Parameters::distinct_rotation,
-          {.unit = "rad", .min = 0, .max = 3.2, .min_open = true, .doc = "Rotation below which the ends of two runs count as one state; see `distinct_translation`."});
+          {.unit = "rad", .min = 0, .max = 3.2, .min_open = true, .doc = "Rotation limit for `distinct_translation`."});
     push::describe_effort(s);
   }
 

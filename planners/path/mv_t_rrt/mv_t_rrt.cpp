@@ -25,7 +25,8 @@ struct Parameters : sampling::TreeParameters {
           {.unit = "rad",
            .min = 0,
            .max = 1.5,
-           .doc = "Face normals that differ by less are one mating vector. Larger: fewer directions, some of them inexact."});
+           .doc = "Face normals that differ by less are one mating vector. Larger: fewer directions, some of them "
+                  "inexact."});
     s.add("max_vectors", &Parameters::max_vectors,
           {.unit = "1", .min = 0, .doc = "Maximum number of mating vectors tried, those of the largest faces first."});
   }

@@ -21,13 +21,13 @@ struct Parameters : sampling::SpaceParameters {
           {.unit = "1",
            .min = 1,
            .max = 1e6,
-           .doc = "Number of disassembled states that the roadmap begins with: the six nearest exits, then random states."});
+           .doc = "Disassembled states that the roadmap begins with: the six nearest exits, then random states."});
     s.add("neighbours", &Parameters::neighbours,
           {.unit = "1",
            .min = 1,
            .max = 1000,
-           .doc = "Number of nearest milestones to which connections from a new one are tried. More: paths are found with "
-                  "fewer milestones, but each milestone costs more state checks."});
+           .doc = "Nearest milestones to which connections from a new one are tried. More: paths are found with fewer "
+                  "milestones, but each milestone costs more state checks."});
     s.add("expansion", &Parameters::expansion,
           {.unit = "1",
            .min = 0,

@@ -14,12 +14,12 @@ struct Parameters : sampling::SpaceParameters {
 
   static void describe(Schema<Parameters>& s) {
     sampling::describe_motion(s);
-    s.add(
-        "goals", &Parameters::goals,
-        {.unit = "1",
-         .min = 1,
-         .max = 1e6,
-         .doc = "Number of disassembled states that the second tree grows from: the six nearest exits, then random states."});
+    s.add("goals", &Parameters::goals,
+          {.unit = "1",
+           .min = 1,
+           .max = 1e6,
+           .doc = "Disassembled states that the second tree grows from: the six nearest exits, then random "
+                  "states."});
     sampling::describe_space(s, "Longest extension of a tree.");
   }
 };

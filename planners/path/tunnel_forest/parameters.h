@@ -62,31 +62,36 @@ struct Parameters {
          .max = 10,
          .doc = "Duration of a push. Each push is aimed at the target again. Shorter: the part follows obstacles more "
                 "closely, but needs more pushes."});
-    s.add("tunnels", &Parameters::tunnels,
-          {.unit = "1",
-           .min = 0,
-           .max = 1000,
-           .doc =
-               "Number of trees at the beginning whose roots are poses where narrow places of the parts match. More are "
-               "added during the search (`extensions_per_tunnel`). 0: only the tree at the start grows."});
+    s.add(
+        "tunnels", &Parameters::tunnels,
+        {.unit = "1",
+         .min = 0,
+         .max = 1000,
+         .doc =
+             "Number of trees at the beginning whose roots are poses where narrow places of the parts match. More are "
+             "added during the search (`extensions_per_tunnel`). 0: only the tree at the start grows."});
     s.add(
         "surface_samples", &Parameters::surface_samples,
         {.unit = "1",
          .min = 1,
          .max = 1e6,
-         .doc = "Number of surface points of the moving and of the fixed parts at which gaps and bars are measured. More: "
-                "smaller narrow places are found."});
-    s.add("join_distance", &Parameters::join_distance,
-          {.unit = "unit",
-           .min = 0,
-           .doc = "Joins are tried between nodes of different trees up to this distance: that of the centres plus half the "
-                  "radius times the angle. Larger: more joins are tried, and more of them fail."});
+         .doc =
+             "Number of surface points of the moving and of the fixed parts at which gaps and bars are measured. More: "
+             "smaller narrow places are found."});
+    s.add(
+        "join_distance", &Parameters::join_distance,
+        {.unit = "unit",
+         .min = 0,
+         .doc =
+             "Joins are tried between nodes of different trees up to this distance: that of the centres plus half the "
+             "radius times the angle. Larger: more joins are tried, and more of them fail."});
     s.add("node_spacing", &Parameters::node_spacing,
           {.unit = "unit",
            .min = 0.01,
            .max = 100,
-           .doc = "Longest edge; longer trajectories get nodes in between. Also the scale of the parameters with the unit "
-                  "`node_spacing`. Smaller: a denser roadmap."});
+           .doc =
+               "Longest edge; longer trajectories get nodes in between. Also the scale of the parameters with the unit "
+               "`node_spacing`. Smaller: a denser roadmap."});
     s.add(
         "clearance", &Parameters::clearance,
         {.unit = "unit",
@@ -103,19 +108,21 @@ struct Parameters {
     path::add_level_steps(s, &Parameters::level_steps);
     describe_growth(s);
     describe_tunnels(s);
-    s.add("check_spacing", &Parameters::check_spacing,
-          {.unit = "node_spacing",
-           .min = 1e-3,
-           .max = 1,
-           .doc =
-               "Advanced. Distance between the state checks along a shortcut. The retracted poses of a path are twice as "
-               "far apart. Smaller: fewer paths are refused, each costs more."});
+    s.add(
+        "check_spacing", &Parameters::check_spacing,
+        {.unit = "node_spacing",
+         .min = 1e-3,
+         .max = 1,
+         .doc =
+             "Advanced. Distance between the state checks along a shortcut. The retracted poses of a path are twice as "
+             "far apart. Smaller: fewer paths are refused, each costs more."});
     s.add("repairs", &Parameters::repairs,
           {.unit = "1",
            .min = 0,
            .max = 1000,
-           .doc = "Advanced. Number of times that a refused path is retracted again after the verifier has reported where "
-                  "it penetrates."});
+           .doc =
+               "Advanced. Number of times that a refused path is retracted again after the verifier has reported where "
+               "it penetrates."});
     s.add("first_turn", &Parameters::first_turn,
           {.unit = "1",
            .min = 1,
@@ -141,7 +148,7 @@ struct Parameters {
       return ParamTraits{.unit = "1", .min = 0, .max = 1, .doc = "Advanced. " + doc};
     };
     s.add("start_bias", &Parameters::start_bias,
-          share("Share of the extensions that begin in the tree of the start; the others begin in any tree."));
+          share("Share of the extensions in the tree of the start; the others are in any tree."));
     s.add("local_share", &Parameters::local_share,
           share("Share of the extensions that slide or turn a node in a sparse region of its tree."));
     s.add("uniform_share", &Parameters::uniform_share,

@@ -1,4 +1,4 @@
-/// A world without meshes behind it: what is free is a function of the first body's pose.
+/// A world without meshes. A function of the first body's pose decides whether a state is free.
 #pragma once
 
 #include <functional>

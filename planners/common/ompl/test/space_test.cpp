@@ -1,4 +1,4 @@
-// Laws of the state space, of nearest neighbours and of checked motions.
+// Laws of the state space, nearest neighbours and checked motions.
 #include <gtest/gtest.h>
 
 #include "dismantle/sampling/nearest.h"
@@ -20,7 +20,7 @@ DisplacementSpace space_of(MotionSpace motion, Rng& rng) {
   return {{shapes::random_vector(rng, -1, 1), rng.uniform(0.1, 3)}, motion, bounds};
 }
 
-/// No point of the mover travels further than the metric says: measured along the motion, point by point.
+/// No point of the mover travels further than the metric, measured point by point along the motion.
 TEST(DisplacementSpace, MetricBoundsTravel) {
   Rng rng(1);
   for (int i = 0; i < 200; ++i) {
@@ -43,7 +43,7 @@ TEST(DisplacementSpace, MetricBoundsTravel) {
   }
 }
 
-/// The screw motions of the path that comes out follow the edge that was checked.
+/// The screw motions of the resulting path follow the checked edge.
 TEST(DisplacementSpace, PathFollowsTheEdge) {
   Rng rng(2);
   for (int i = 0; i < 50; ++i) {
@@ -63,7 +63,7 @@ TEST(DisplacementSpace, PathFollowsTheEdge) {
   }
 }
 
-/// Turns are uniform: each axis of the turned frame points everywhere alike.
+/// Rotations are uniform: each axis of the rotated frame is uniform on the sphere.
 TEST(DisplacementSpace, DrawsUniformly) {
   Rng rng(3);
   const DisplacementSpace space = space_of(MotionSpace::rigid, rng);
@@ -85,7 +85,7 @@ TEST(NearestNodes, AgreesWithLookingAtAll) {
   Rng rng(4);
   NearestNodes near;
   std::vector<Vector3d> points;
-  std::vector<double> extra;  // the metric is more than the distance of the points
+  std::vector<double> extra;  // the metric exceeds the distance of the points
   for (int i = 0; i < 600; ++i) {
     points.push_back((shapes::random_vector(rng, 0, 4)).array().round());  // many ties
     extra.push_back(rng.below(3));
@@ -107,7 +107,7 @@ TEST(NearestNodes, AgreesWithLookingAtAll) {
   }
 }
 
-/// A wall as thick as a step is never jumped, however it stands and however long the motion that goes through it.
+/// A wall as thick as a step is never missed, for any orientation of the wall and any length of the motion.
 TEST(SamplingProblem, ThinWallIsNeverJumped) {
   constexpr double kStep = 0.01;
   Rng rng(5);
@@ -132,12 +132,12 @@ TEST(SamplingProblem, ThinWallIsNeverJumped) {
       const double side_b = normal.dot(problem.space().displacement(b).t) - at;
       if (side_a * side_b > 0 || std::abs(side_a) < kStep) continue;
       EXPECT_LT(problem.free_share(a, b), 1);
-      EXPECT_FALSE(problem.information()->checkMotion(&a, &b));  // OMPL's own entrance
-      // What is kept of an extension ends before the wall.
+      EXPECT_FALSE(problem.information()->checkMotion(&a, &b));  // through OMPL's interface
+      // The kept part of an extension ends before the wall.
       const StateType last = problem.space().between(a, b, problem.free_share(a, b));
       EXPECT_GT((normal.dot(problem.space().displacement(last).t) - at) * side_a, 0);
     }
-    // Our length, as the fraction of the extent that OMPL wants.
+    // The step, as the fraction of the extent that OMPL needs.
     EXPECT_NEAR(problem.space().getLongestValidSegmentFraction() * problem.space().getMaximumExtent(), kStep, 1e-12);
   }
 }

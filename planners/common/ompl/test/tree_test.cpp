@@ -1,4 +1,4 @@
-// Laws of the tree planners: same seed same path, whatever else the process does; budgets; refusals.
+// Laws of the tree planners: reproducible paths whatever else the process does, budgets, refusals.
 #include <gtest/gtest.h>
 #include <ompl/util/RandomNumbers.h>
 
@@ -74,7 +74,7 @@ TEST(TreePlanner, SameSeedSamePath) {
   EXPECT_FALSE(same(slot().plan(1, kEffort).path()->poses(), slot().plan(2, kEffort).path()->poses()));
 }
 
-/// Searches on other threads, and generators made by others, change nothing.
+/// Searches on other threads and generators of other code do not change the result.
 TEST(TreePlanner, ThreadsDoNotDisturbEachOther) {
   slot();
   std::vector<PathResult> alone, together(4);
@@ -92,7 +92,7 @@ TEST(TreePlanner, ThreadsDoNotDisturbEachOther) {
   }
 }
 
-/// OMPL seeds its generators from one sequence for the whole process: planning takes nothing from it.
+/// Planning takes nothing from OMPL's process-wide sequence of seeds.
 TEST(TreePlanner, LeavesOmplsSequenceOfSeedsAlone) {
   const auto next_seed = [] { return ompl::RNG().getLocalSeed(); };
   ompl::RNG::setSeed(17);
@@ -150,7 +150,7 @@ TEST(TreePlanner, StartThatIsOut) {
   EXPECT_EQ(task.plan(1, {}).outcome(), Outcome::start_is_goal);
 }
 
-/// Every motion space finds the way, and only turns where it may.
+/// A path is found in every motion space, and rotates only where rotation is allowed.
 TEST(TreePlanner, MotionSpaces) {
   TreeParameters p;
   p.motion = Motion::translation;

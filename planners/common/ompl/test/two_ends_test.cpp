@@ -1,4 +1,4 @@
-// Laws of what grows from the start and from disassembled states: two trees, a roadmap.
+// Laws of the planners that grow from the start and from disassembled states: two trees, a roadmap.
 #include <gtest/gtest.h>
 #include <ompl/base/ProblemDefinition.h>
 #include <ompl/util/RandomNumbers.h>
@@ -19,13 +19,13 @@ namespace {
 using Eigen::Vector3d;
 using StateType = SamplingProblem::StateType;
 
-/// A hollow box with a square hole somewhere in one of its six walls, around what moves.
+/// A hollow box around the mover, with a square hole somewhere in one of its six walls.
 struct Gate {
   explicit Gate(Rng& rng)
       : axis(static_cast<int>(rng.below(3))),
         sign(rng.below(2) == 0 ? -1 : 1),
         at(shapes::random_vector(rng, -1.5, 1.5)) {}
-  /// `margin`: what is left of the walls when they are that much thinner.
+  /// `margin`: reduction of the walls' thickness.
   bool blocks(const Vector3d& t, double margin = 0) const {
     const double out = t.cwiseAbs().maxCoeff();
     if (out < 3 + margin || out > 4 - margin) return false;
@@ -41,7 +41,7 @@ struct Gate {
 
 constexpr double kStep = 0.05;
 
-/// A query among the walls, with all that it refers to.
+/// A query in the box, with all objects that it refers to.
 struct Task {
   explicit Task(const Gate& walls, MotionSpace motion = MotionSpace::translation) {
     simulator.depth = [walls](const Pose& p) { return walls.blocks(p.t) ? 1.0 : 0.0; };
@@ -81,7 +81,7 @@ class TwoEnds : public testing::Test {
     task.set_up(*made, seed);
     return made;
   }
-  /// Until there is a path, or that number of checks has been made.
+  /// Runs until there is a path or `until` checks have been made.
   static std::vector<StateType> solve(Planner& planner, Task& task, std::uint64_t until = 2'000'000) {
     const ompl::base::PlannerTerminationCondition stop([&, until] { return task.budget->checks >= until; });
     return planner.solve(stop) == ompl::base::PlannerStatus::EXACT_SOLUTION ? planner.solution()
@@ -96,7 +96,7 @@ class TwoEnds : public testing::Test {
 using Planners = testing::Types<ConnectTrees, Roadmap>;
 TYPED_TEST_SUITE(TwoEnds, Planners);
 
-/// From the start, out through the hole, wherever it is; through no wall.
+/// The path leads from the start through the hole, wherever it is, and through no wall.
 TYPED_TEST(TwoEnds, FindsTheHole) {
   Rng rng(1);
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
@@ -114,7 +114,7 @@ TYPED_TEST(TwoEnds, FindsTheHole) {
   }
 }
 
-/// No hole, no path, and the search ends when it is told to.
+/// Without a hole there is no path, and the search ends when `stop` returns true.
 TYPED_TEST(TwoEnds, FindsNothingWhereThereIsNothing) {
   Rng rng(2);
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -146,7 +146,7 @@ TYPED_TEST(TwoEnds, InPortionsAsWithoutStops) {
   }
 }
 
-/// A motion that was discarded is in no later path; there are others.
+/// A discarded motion is in no later path, and other paths are found.
 TYPED_TEST(TwoEnds, WhatIsDiscardedIsNotUsedAgain) {
   Rng rng(4);
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -167,7 +167,7 @@ TYPED_TEST(TwoEnds, WhatIsDiscardedIsNotUsedAgain) {
   }
 }
 
-/// Nothing is drawn from OMPL's sequence of seeds, and what others draw from it changes nothing.
+/// Nothing is drawn from OMPL's sequence of seeds, and draws of other code do not change the result.
 TYPED_TEST(TwoEnds, DependsOnItsSeedAlone) {
   Rng rng(5);
   Gate gate(rng);
@@ -186,7 +186,7 @@ TYPED_TEST(TwoEnds, DependsOnItsSeedAlone) {
   EXPECT_FALSE(this->same(path, this->solve(*other_seed, c)));
 }
 
-/// The goal's samples: all out, the six exits first and by distance.
+/// All samples of the goal are separated; the six exits come first, ordered by distance.
 TEST(DisassembledGoal, SamplesAreOut) {
   Rng rng(6);
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {

@@ -13,7 +13,7 @@
 namespace dismantle::path {
 namespace {
 
-/// Who worked on what unit of work.
+/// By unit of work: the search that did it.
 std::vector<std::size_t> order_of_work(std::size_t searches, std::uint64_t first, std::uint64_t total,
                                        const std::vector<std::uint64_t>& portions, std::uint64_t most_a_step, Rng rng) {
   GrowingTurns turns(searches, first);
@@ -38,7 +38,7 @@ TEST(GrowingTurns, RoundsDoubleAndPortionsChangeNothing) {
     const auto whole = order_of_work(searches, first, total, {}, 1, rng);
     EXPECT_EQ(order_of_work(searches, first, total, portions, 1, rng), whole) << seed;
     ASSERT_EQ(whole.size(), total);
-    // In round r each search has first * 2^r units of work, the last one what is left.
+    // In round r each search does first * 2^r units of work; the last search does the rest.
     std::uint64_t at = 0;
     for (std::uint64_t turn = first; searches > 1 && at < total; turn *= 2)
       for (std::size_t i = 0; i < searches; ++i)
@@ -71,8 +71,8 @@ TEST(GrowingTurns, WorkOfADepthLimitDoubles) {
   EXPECT_EQ(doubled_per_level(500, 200), ~std::uint64_t{0}) << "it never wraps";
 }
 
-/// Waypoints on a line of which some pairs are joined: what is left begins and ends alike, and all that was joined
-/// newly was asked for.
+/// Waypoints on a line, with direct motions between some pairs. The first and last waypoints remain, and every new
+/// motion was checked.
 TEST(Shortcuts, LeaveJoinedWaypointsInOrder) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Rng rng(seed);
@@ -115,7 +115,7 @@ TEST(Shortcuts, StopWhenToldTo) {
   EXPECT_EQ(all.size(), 50u);
 }
 
-/// Of forms that are refused until one is accepted, all are shown in order, and the refusals are counted.
+/// Forms are shown in order until one is accepted, and refusals are counted.
 TEST(Candidates, ShowFormsUntilOneIsAccepted) {
   for (std::size_t accepted = 0; accepted <= 5; ++accepted)
     for (std::size_t learns = 0; learns <= 5; ++learns) {

@@ -1,4 +1,4 @@
-// Points in mazes that hold each other: searches in which each part moves in its own way.
+// Searches in which each part moves along its own path: coupled points in mazes.
 #include <cmath>
 
 #include "maze.h"
@@ -23,7 +23,7 @@ bool in_own_tunnel(const State& s) {
 
 bool is_pushed(const Action& action, std::size_t body) { return action.wrenches[body].force.norm() > 0; }
 
-/// As by a rack: y of point 1 is `ratio` times x of point 0, and a part that is not pushed is dragged along.
+/// Coupled as by a rack: y of point 1 is `ratio` times x of point 0. A part that is not pushed is dragged along.
 Maze geared(double ratio) {
   Maze maze = crossed();
   maze.link = [ratio](State& s, const Action& action) {
@@ -37,7 +37,7 @@ Maze geared(double ratio) {
   return maze;
 }
 
-/// As two doors that open each other: neither moves unless both do, by the same way, and nobody is dragged.
+/// Coupled as two doors that open each other: both points move by the same distance or not at all. None is dragged.
 Maze hand_in_hand() {
   Maze maze = crossed();
   maze.link = [](State& s, const Action&) {
@@ -87,14 +87,14 @@ TEST(EachItsWay, TwoAreDrivenAtOnceWhereOneIsNotEnough) {
     EXPECT_NEAR(end[0].t.x(), end[1].t.y(), 1e-6);
     ASSERT_EQ(run.checked.size(), 1u);
   }
-  // As one group they go nowhere.
+  // As one group they cannot move.
   MazeRun group;
   search(group, hand_in_hand(), {}, {.max_depth = 2}, accept, {}, 2);
   EXPECT_NE(group.result.outcome(), Outcome::solved);
 }
 
 TEST(EachItsWay, UnderADepthLimitTheStepsAreCounted) {
-  // Plenty of room, no way out, nobody dragged.
+  // A closed room with space to move; no part is dragged.
   const Maze maze{.free = {Aabb{Vector3d::Constant(-3), Vector3d::Constant(3)}}};
   for (const unsigned depth : {1U, 4U}) {
     MazeRun run;

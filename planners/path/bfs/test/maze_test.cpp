@@ -1,4 +1,4 @@
-// Algorithm 1 in mazes whose solutions are known: how searches end, what they cost, what they tell.
+// Algorithm 1 in mazes with known solutions: outcomes, costs and reports of searches.
 #include "maze.h"
 
 namespace dismantle::bfs {
@@ -12,7 +12,7 @@ const ParamSet kAxesOnly{{"motion", std::string("translation")}, {"diagonals", f
 
 Maze straight() { return {.free = {tunnel(Vector3d::Zero(), Vector3d(7, 0, 0))}}; }
 
-/// `bends` corners: as many actions and one more to get out.
+/// A tunnel with `bends` corners; leaving it takes `bends` + 1 actions.
 Maze winding(int bends) {
   Maze maze;
   Vector3d at = Vector3d::Zero();
@@ -92,7 +92,7 @@ TEST(BfsMaze, AClosedRoomIsExhausted) {
 }
 
 TEST(BfsMaze, DiagonalsAreTriedLastAndCanBeSwitchedOff) {
-  // A staircase so fine that no single axis gets anywhere.
+  // A staircase so fine that no motion along one axis makes progress.
   Maze maze;
   for (int k = 0; k < 700; ++k)
     maze.free.push_back(tunnel(0.01 * k * Vector3d(1, 1, 0), 0.01 * k * Vector3d(1, 1, 0), 0.007));
@@ -183,7 +183,7 @@ TEST(BfsMaze, BothSearchesOfAutoShareOneStepBudget) {
   EXPECT_LT(both.notes.steps, translation.notes.steps + 5 + maze.steps_per_advance);
 }
 
-/// Two ways out: +x, which comes first, and -z.
+/// Two exits: +x, which is tried first, and -z.
 Maze two_ways() {
   return {.free = {tunnel(Vector3d::Zero(), Vector3d(7, 0, 0)), tunnel(Vector3d::Zero(), Vector3d(0, 0, -7))},
           .free_after_learning = {tunnel(Vector3d::Zero(), Vector3d(1, 0, 0)),

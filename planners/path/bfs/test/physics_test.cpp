@@ -1,4 +1,4 @@
-// bfs over sdf_penalty, verified with the verifier, on small solids.
+// bfs with sdf_penalty and the verifier, on small solids.
 #include <gtest/gtest.h>
 
 #include "table.h"
@@ -10,7 +10,7 @@ using path::test::assembly_of;
 using path::test::block;
 using path::test::boxes;
 
-/// A slider in a slot that is closed above it: 1.5 along +x, then up through a hole in the roof.
+/// A slider in a roofed slot. It leaves 1.5 along +x, then up through a hole in the roof.
 Assembly l_slot() {
   const double c = 0.02;
   return assembly_of(
@@ -90,13 +90,13 @@ TEST(BfsPhysics, ADepthLimitLimitsSimulatedSteps) {
   for (const unsigned depth : {1u, 2u, 3u}) {
     const PathResult r = bench.plan({0}, {}, {.max_depth = depth});
     EXPECT_EQ(r.outcome(), Outcome::depth_limit) << depth;
-    // 2000 per level, once translating and from the second level on once turning; a run under way is ended.
+    // 2000 per level for translation, and from the second level on as many with rotation. The current run is completed.
     EXPECT_LE(r.stats.steps, (depth == 1 ? 1u : 2u) * 2000u * depth + 2 * 500) << depth;
   }
 }
 
 TEST(BfsPhysics, PartsThatMoveTogetherDoNotBlockEachOther) {
-  // Two plates in a tube with a floor, one on the other: both leave at once, and only the tube is in their way.
+  // Two stacked plates in a tube with a floor leave together; only the tube blocks them.
   const double c = 0.02;
   Bench bench(
       assembly_of({boxes({block(-0.5, -0.5, 0, 0.5, 0.5, 0.2)}), boxes({block(-0.5, -0.5, 0.2, 0.5, 0.5, 0.4)}),

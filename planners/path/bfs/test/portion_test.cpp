@@ -6,8 +6,7 @@
 namespace dismantle::push::test {
 namespace {
 
-/// The largest cost of one call of run() with that portion, in a maze whose gates are closed, up to a total cost of
-/// `most`.
+/// The largest cost of one call of run() with `portion`, in a maze with closed gates, up to a total cost of `most`.
 double largest_call(const RandomMaze& m, const char* planner, std::uint64_t portion, double most) {
   Notes notes;
   MazeSimulator simulator(m.maze, notes);
@@ -28,8 +27,8 @@ double largest_call(const RandomMaze& m, const char* planner, std::uint64_t port
   return largest;
 }
 
-/// A call costs no more than its portion and the actions of one state of either search: translation and rotation, which
-/// take turns, use the portion together.
+/// A call costs at most its portion plus the actions of one state of either search. Translation and rotation take turns
+/// and share the portion.
 TEST(Portions, EndWhereTheyAreUsed) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const RandomMaze m = random_maze(seed);

@@ -1,4 +1,4 @@
-// Algorithm 1 as published, with the paper's configuration: which paths it finds, in how many simulated steps.
+// Algorithm 1 as published, with the paper's configuration: paths found and simulated steps needed.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -41,7 +41,7 @@ struct Bench : path::test::Table {
   }
 };
 
-/// A slider in a slot with a roof: `length` along +x, then up through a hole.
+/// A slider in a roofed slot. It leaves `length` along +x, then up through a hole.
 Assembly slot(double length) {
   const double c = 0.02, end = length + 1;
   return assembly_of({boxes({block(0, 0, 0, 1, 0.8, 0.6)}),
@@ -61,7 +61,7 @@ TEST(Published, SlotsOfAnyLengthAreSolvedAtDepthTwoInFewSteps) {
     const PathResult r = bench.plan(kTranslation);
     ASSERT_EQ(r.outcome(), Outcome::solved) << length << ": " << r.message;
     EXPECT_EQ(r.depth, 2u);
-    // Half a unit per planning time step of 100 time steps, of which a tenth is simulated.
+    // A planning time step of 100 time steps moves it by half a unit; a tenth of the time steps is simulated.
     EXPECT_LT(r.stats.steps, 150 + 60 * length) << length;
     EXPECT_EQ(bench.plan(kTranslation, {.max_depth = 1}).outcome(), Outcome::depth_limit);
   }
@@ -106,7 +106,7 @@ TEST(Published, TheLongestWayComesFirst) {
   EXPECT_LE(longest.stats.steps, first.stats.steps);
 }
 
-/// A room with walls all around: with and without rotation nothing leaves, and the search knows when all was tried.
+/// A room with walls all around: nothing leaves with or without rotation, and the search ends exhausted.
 TEST(Published, AClosedBoxIsExhaustedWithoutARefusal) {
   const double play = 0.02, w = 0.1;
   Mesh room = boxes({block(-0.6 - w, -0.5 - w, -0.4 - w, 0.6 + w, 0.5 + w, 0.4 + w)});

@@ -1,4 +1,4 @@
-// Searches that go on where an earlier one, with more parts in the way, had come to.
+// Searches that resume from an earlier search with more parts in the way.
 #include <algorithm>
 
 #include "random_maze.h"
@@ -17,8 +17,8 @@ struct Made {
   }
 };
 
-/// What was found to be in the way leaves, one after the other: the search finds what one from the start finds, and
-/// what it simulates is less by what it knew.
+/// The blocking parts leave one after the other. A resumed search finds what a search from the start finds, and
+/// simulates less by the steps it was spared.
 TEST(Resume, FindsWhatASearchFromTheStartFindsWithLessSimulation) {
   for (const char* planner : {"bfs", "contact_search"})
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
@@ -46,7 +46,7 @@ TEST(Resume, FindsWhatASearchFromTheStartFindsWithLessSimulation) {
     }
 }
 
-/// Deeper, with nothing else changed: as far as a search from the start, and together hardly more simulation.
+/// With only the depth limit raised, resumed searches reach as far as one from the start, with hardly more simulation.
 TEST(Resume, GoesDeeperWithoutDoingThingsTwice) {
   for (const char* planner : {"bfs", "contact_search"})
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
@@ -66,7 +66,7 @@ TEST(Resume, GoesDeeperWithoutDoingThingsTwice) {
     }
 }
 
-/// However its steps are portioned out, it ends as it would in one go; what was cut short is made up for.
+/// A search in portions ends like a search without portions; interrupted work is repeated.
 TEST(Resume, InPortionsAsInOneGo) {
   int cut = 0;
   for (const bool open : {true, false})
@@ -99,7 +99,7 @@ TEST(Resume, InPortionsAsInOneGo) {
   EXPECT_GT(cut, 20);
 }
 
-/// Under a limit of states what is known counts in it, but at least a half of it is for what is new.
+/// With a limit of states, known states count in it, but at least half of it is for new states.
 TEST(Resume, HalfOfABudgetIsForWhatIsNew) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const RandomMaze m = random_maze(seed);
@@ -121,7 +121,7 @@ TEST(Resume, HalfOfABudgetIsForWhatIsNew) {
   }
 }
 
-/// Nothing left, and nothing to go deeper for: there is nothing to do.
+/// If no part has left and the depth is the same, nothing is simulated.
 TEST(Resume, WhereNothingHasChangedNothingIsSimulated) {
   const RandomMaze m = random_maze(3);
   const Made first(m, "bfs", 0, {kFar});
@@ -132,7 +132,7 @@ TEST(Resume, WhereNothingHasChangedNothingIsSimulated) {
   EXPECT_EQ(again.run.result.blocked_by, first.run.result.blocked_by);
 }
 
-/// A state that was reached is out now that the last part around it has left: no action is needed.
+/// A known state is separated after the last part around it has left. It is verified without any action.
 TEST(Resume, WhatIsOutNowIsJudgedAtOnce) {
   const RandomMaze m = random_maze(5);
   const Made first(m, "bfs", 0, {kFar});
@@ -146,7 +146,7 @@ TEST(Resume, WhatIsOutNowIsJudgedAtOnce) {
   EXPECT_GE(again.run.result.depth, 1U);
 }
 
-/// Nor where the start itself is out.
+/// If the start itself is separated, no action is needed either.
 TEST(Resume, WhoIsOutAtTheStartHasNothingToDo) {
   const RandomMaze m = random_maze(5);
   const Made first(m, "bfs", 0, {kFar});
@@ -156,7 +156,7 @@ TEST(Resume, WhoIsOutAtTheStartHasNothingToDo) {
   EXPECT_EQ(again.run.result.outcome(), Outcome::start_is_goal);
 }
 
-/// What the verifier has taught is not forgotten, unless it was about what has left.
+/// Contact samples are kept unless they belong to a part that has left.
 TEST(Resume, ContactSamplesAreKept) {
   for (const bool about_gate : {false, true}) {
     const RandomMaze m = random_maze(4);
@@ -180,7 +180,7 @@ TEST(Resume, ContactSamplesAreKept) {
   }
 }
 
-/// What other planners have kept is none of its business.
+/// The search states of other planners are ignored.
 TEST(Resume, WhatIsNotItsOwnIsIgnored) {
   class Strange final : public SearchState {};
   const Strange strange;

@@ -10,8 +10,7 @@
 namespace dismantle::tolerant_walk {
 namespace {
 
-constexpr double kMostBlocks =
-    4e6;  // per grid; bounds memory, so huge parts get larger cells
+constexpr double kMostBlocks = 4e6;  // per grid; bounds memory, so huge parts get larger cells
 
 Aabb inflated(Aabb box, double by) {
   box.inflate(by);

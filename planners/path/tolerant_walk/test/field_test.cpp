@@ -33,7 +33,7 @@ TEST(DistanceField, IsWithinACellOfTheDistance) {
       const double d = exact.signed_distance(p);
       if (std::abs(d) < 0.07) {
         EXPECT_NEAR(field.at(p), d, cell) << k;
-      } else {  // far away it only has to be known that it is far
+      } else {  // far away, only a bound of the distance is needed
         EXPECT_LE(field.at(p), d + 8 * cell);
         EXPECT_GE(std::abs(field.at(p)), 0.07 - cell);
         EXPECT_EQ(field.at(p) < 0, d < 0);
@@ -42,7 +42,7 @@ TEST(DistanceField, IsWithinACellOfTheDistance) {
   }
 }
 
-/// Values do not depend on earlier queries, nor on those of other threads.
+/// Values depend neither on earlier queries nor on queries of other threads.
 TEST(DistanceField, IsTheSameForSeveralThreads) {
   Rng rng(4);
   for (int k = 0; k < 5; ++k) {
@@ -71,8 +71,8 @@ TEST(DistanceField, IsTheSameForSeveralThreads) {
   }
 }
 
-/// A plate on a block, moved down into it or turned. Poses clearly within the tolerance are valid, poses clearly beyond
-/// it are not; for any orientation of the two and any initial overlap.
+/// A plate on a block is moved down into it or rotated. Poses clearly within the tolerance are valid and poses clearly
+/// beyond it are not, for any orientation of the two and any initial overlap.
 TEST(ValidityChecker, AgreesWithTheDepthOfThePair) {
   Rng rng(5);
   int in = 0, beyond = 0;
@@ -110,7 +110,7 @@ TEST(ValidityChecker, AgreesWithTheDepthOfThePair) {
 }
 
 TEST(ValidityChecker, SeesAWallBetweenTheSamplesOfTheOther) {
-  // A wall of 0.06 in the middle of a block of which only corners and faces are sampled: no point of either is deep.
+  // A wall of 0.06 in the middle of a block. Only corners and faces of both are sampled, and no such point is deep.
   Rng rng(7);
   for (int k = 0; k < 5; ++k) {
     const Pose turned = random_pose(rng, 1);
@@ -126,7 +126,7 @@ TEST(ValidityChecker, SeesAWallBetweenTheSamplesOfTheOther) {
 }
 
 TEST(ValidityChecker, AllowsAnOverlapNearTheStartOnly) {
-  // A rod of 0.04 sunk by 0.03 into a block; beside it a wall of 0.05, which it must not pass.
+  // A rod of 0.04 is sunk by 0.03 into a block. It must not pass through the wall of 0.05 beside it.
   Rng rng(9);
   for (int k = 0; k < 5; ++k) {
     const Pose turned = random_pose(rng, 1);
@@ -172,7 +172,7 @@ TEST(ValidityChecker, HalvesTheToleranceAfterRepeatedRefusals) {
   EXPECT_TRUE(checker.is_valid(Pose{}));
 }
 
-/// Cached objects give the same results as new ones, whatever was computed before, and also if the cache has no room.
+/// Cached objects give the same results as new ones, whatever was computed before, even if the cache has no room.
 /// Parts with the same mesh share a field.
 TEST(GeometryCache, ChangesNoAnswer) {
   Rng rng(12);

@@ -45,7 +45,7 @@ struct TestScene {
 
 Pose up(double z) { return {Eigen::Vector3d(0, 0, z), Eigen::Quaterniond::Identity()}; }
 
-/// Branches that were cut stay so, unless the part because of which they were cut has left.
+/// Branches stay cut unless the part that caused the cut has left.
 TEST(PoseTreeResume, BranchesCutBecauseOfAPartGrowAgainWithoutIt) {
   for (const PartId blamed : {PartId{2}, PartId{3}}) {
     TestScene s;
@@ -73,7 +73,7 @@ TEST(PoseTreeResume, BranchesCutBecauseOfAPartGrowAgainWithoutIt) {
   }
 }
 
-/// Only obstacles since the last progress count, and only those that were hit often enough.
+/// Only obstacles met since the last progress count, and only if they were met often enough.
 TEST(PoseTreeResume, ResumesWhereItsObstaclesHaveLeft) {
   TestScene s;
   const PathQuery all = s.query({1, 2, 3});

@@ -15,8 +15,8 @@ using path::test::boxes;
 using path::test::moved;
 using path::test::Table;
 
-/// A frame around a square hole of 1 x 1, closed below; in it a peg with a bead on two sides, under the frame's upper
-/// edge, where the hole has a groove for it.
+/// A frame around a square hole of 1 x 1 with a closed bottom. In it is a peg with a bead on two sides; the hole has a
+/// groove for the bead below the frame's upper edge.
 Assembly snapped(double bead, const Pose& turned) {
   const double w = 1.5, g = 0.5 + bead + 0.02, lo = 0.4, hi = 0.6;
   std::vector<Aabb> frame{block(-w, -w, -0.5, w, w, 0)};

@@ -1,4 +1,4 @@
-// Chords across bodies whose widths are known, and poses that bring them together.
+// Chords across bodies of known width, and poses that match them.
 #include "narrow_places.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ TEST(NarrowPlaces, ABoxHasBarsOfItsEdgesAndNoGaps) {
       const Vector3d local = pose.inverse() * bar.middle, axis = pose.q.conjugate() * bar.axis;
       EXPECT_NEAR(axis.cwiseAbs().maxCoeff(), 1, 1e-9);
       EXPECT_GT(local.minCoeff(), -1e-9);
-      // The middle of a chord is half-way between two faces.
+      // The middle of a chord is halfway between two faces.
       Eigen::Index along = 0;
       axis.cwiseAbs().maxCoeff(&along);
       EXPECT_NEAR(local[along], 0.5 * Vector3d(a, b, c)[along], 1e-9);

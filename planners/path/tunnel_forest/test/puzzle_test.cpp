@@ -1,4 +1,4 @@
-// The planner over sdf_penalty, verified with the verifier, on mazes and linked rings, turned at random.
+// The planner with sdf_penalty and the verifier, on mazes and linked rings in random orientations.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using namespace path::test;
 
 Pose random_pose(Rng& rng) { return {Vector3d(rng.normal(), rng.normal(), rng.normal()), random_turn(rng)}; }
 
-/// A pin in a box with corridors: +x, +y, -x, then out through the roof.
+/// A pin in a box with corridors. It leaves along +x, +y, -x, then through the roof.
 std::vector<Mesh> corridors() {
   const double c = 0.03;
   return {boxes({block(0, 0, 0, 0.6, 0.6, 0.6)}),

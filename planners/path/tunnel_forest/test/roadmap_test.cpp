@@ -1,4 +1,4 @@
-// Trees under random growth, joins and cuts, against a search over all edges.
+// Trees after random growth, joins and cuts, compared with a search over all edges.
 #include "roadmap.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ Roadmap::Node node_at(double x, bool separated) {
   return n;
 }
 
-/// What the roadmap should be: pairs of nodes with an edge.
+/// The expected roadmap: pairs of nodes with an edge.
 struct Reference {
   std::size_t nodes = 0;
   std::vector<std::pair<Index, Index>> edges;
@@ -121,7 +121,7 @@ TEST(Roadmap, TreesAreTheConnectedComponents) {
           if (reference.edges.empty()) break;
           const auto e = static_cast<Index>(rng.below(reference.edges.size()));
           map.cut(e);
-          map.cut(e);  // once more changes nothing
+          map.cut(e);  // a second cut has no effect
           reference.cut[e] = true;
       }
       expect_same(map, reference);

@@ -17,12 +17,12 @@ namespace dismantle::sampling {
 /// of them extends towards a random state, and the other extends towards the new node until it arrives or is blocked;
 /// then they change roles. The first target after a new root of the second tree is that root.
 ///
-/// The problem's goal is a GoalState, or a region that can be sampled. With a region, each iteration samples a root until
-/// maxSampleCount() were sampled, and a node of the first tree in the region also ends the search.
+/// The problem's goal is a GoalState, or a region that can be sampled. With a region, each iteration samples a root
+/// until maxSampleCount() were sampled, and a node of the first tree in the region also ends the search.
 ///
-/// Not ompl::geometric::RRTConnect, which draws its seeds from a process-wide sequence. All random numbers come from the
-/// given generator. A further solve() continues with the same trees; after clear() it starts again with other random
-/// numbers.
+/// Not ompl::geometric::RRTConnect, which draws its seeds from a process-wide sequence. All random numbers come from
+/// the given generator. A further solve() continues with the same trees; after clear() it starts again with other
+/// random numbers.
 class ConnectTrees final : public ompl::base::Planner {
  public:
   using StateType = SamplingProblem::StateType;

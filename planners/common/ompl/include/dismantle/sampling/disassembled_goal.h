@@ -7,8 +7,8 @@
 
 namespace dismantle::sampling {
 
-/// Holds for states whose hulls are disjoint. Samples: the start moved out of the fixed parts' box through each of the six
-/// exits, nearest first, as in Targetless-RRT; then random states. All random numbers come from the given generator.
+/// Holds if the hulls are disjoint. Samples: the start moved out of the fixed parts' box through each of the six exits,
+/// nearest first, as in Targetless-RRT; then random states. All random numbers come from the given generator.
 class DisassembledGoal final : public ompl::base::GoalSampleableRegion {
  public:
   using StateType = SamplingProblem::StateType;

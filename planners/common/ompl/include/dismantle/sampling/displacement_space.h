@@ -21,8 +21,8 @@ struct Mover {
 
 /// R3 or SE(3). A state is the position of the mover's centre and its rotation since the start.
 ///
-/// Metric (assembly units): displacement of the centre plus radius times angle. Between two states the centre moves on a
-/// line while the mover rotates at constant speed (OMPL's interpolation for SE(3)), and no point of the mover travels
+/// Metric (assembly units): displacement of the centre plus radius times angle. Between two states the centre moves on
+/// a line while the mover rotates at constant speed (OMPL's interpolation for SE(3)), and no point of the mover travels
 /// further than the metric. A step in this metric therefore bounds the step of every point.
 ///
 /// Draws nothing from OMPL's process-wide sequence of seeds unless OMPL itself requests a sampler.
@@ -78,8 +78,8 @@ class DisplacementSpace final : public ompl::base::StateSpace {
   mutable Rng sampler_seeds_{1};
 };
 
-/// Subdivides an edge so that the screw motions between the poses of the path stay within `deviation` (assembly units) of
-/// the edge. Appends poses after `first`, up to and including `last`.
+/// Subdivides an edge so that the screw motions between the poses of the path stay within `deviation` (assembly units)
+/// of the edge. Appends poses after `first`, up to and including `last`.
 void append_edge(const DisplacementSpace& space, const DisplacementSpace::StateType& first,
                  const DisplacementSpace::StateType& last, double deviation, std::vector<Pose>& displacements);
 

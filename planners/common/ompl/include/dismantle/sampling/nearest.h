@@ -17,8 +17,8 @@ class NearestNodes {
   /// Searches ignore the label from now on.
   void remove(std::uint32_t label) { removed_[label] = true; }
   bool removed(std::uint32_t label) const { return removed_[label]; }
-  /// Label with the least metric(label), the lowest label of equal ones; geometry::kNoIndex if there are none. The metric
-  /// must be at least the distance from `point` to the label's point.
+  /// Label with the least metric(label), the lowest label of equal ones; geometry::kNoIndex if there are none. The
+  /// metric must be at least the distance from `point` to the label's point.
   std::uint32_t nearest(const Eigen::Vector3d& point, const std::function<double(std::uint32_t)>& metric) const;
   /// Up to `count` labels with the least metric, nearest first; of equal ones, the lower label first.
   std::vector<std::uint32_t> nearest(const Eigen::Vector3d& point, const std::function<double(std::uint32_t)>& metric,

@@ -18,9 +18,9 @@ namespace dismantle::sampling {
 /// by free straight motions; only milestones of different components are connected. Ends when the start's component
 /// holds a state of the goal. Each iteration adds at most one milestone:
 /// - a sample of the goal, as long as there are any;
-/// - with probability `expansion`, the end of a free motion from a milestone whose motions were mostly blocked and that
-///   was seldom expanded (their expansion step): so the roadmap gets through narrow passages. Every other time the
-///   milestone is one that is connected to the start;
+/// - with probability `expansion`, the end of a free motion from a rarely expanded milestone whose motions were mostly
+///   blocked (their expansion step), which leads through narrow passages. Half of the expansions begin at a milestone
+///   connected to the start;
 /// - with probability `gaussian` of the rest, a state near an obstacle (Boor, Overmars and van der Stappen 1999);
 /// - otherwise a uniform one.
 ///
@@ -47,7 +47,8 @@ class Roadmap final : public ompl::base::Planner {
   void discard(std::size_t edge);
   std::uint64_t nodes() const { return milestones_.size(); }
   std::uint64_t iterations() const { return iterations_; }
-  /// Of the milestones connected to the start, the one whose centre is furthest from it. Nothing before the first solve().
+  /// Of the milestones connected to the start, the one whose centre is furthest from it. Nothing before the first
+  /// solve().
   std::optional<StateType> farthest() const;
 
  private:

@@ -53,16 +53,13 @@ void describe_space(Schema<P>& s, const std::string& range_doc) {
        .max = 1,
        .doc = "Distance between the state checks along a motion (table 7), as the largest displacement of any point of "
               "the part. Smaller: thinner obstacles are detected, but each motion costs more."});
-  s.add(
-      "tolerance_share", inherited<P>(&SpaceParameters::tolerance_share),
-      {.unit = "1",
-       .min = 0,
-       .max = 1,
-       .doc =
-           "Share of verify.max_penetration beyond which a state counts as colliding, unless the start is deeper. "
-           "Table 7 uses all of it. Smaller: the verifier refuses fewer paths."});
-  s.add("simplify", inherited<P>(&SpaceParameters::simplify),
-        {.doc = "Replace detours with free straight motions."});
+  s.add("tolerance_share", inherited<P>(&SpaceParameters::tolerance_share),
+        {.unit = "1",
+         .min = 0,
+         .max = 1,
+         .doc = "Share of verify.max_penetration, beyond the initial overlap, above which a state counts as colliding. "
+                "Table 7 uses all of it. Smaller: the verifier refuses fewer paths."});
+  s.add("simplify", inherited<P>(&SpaceParameters::simplify), {.doc = "Replace detours with free straight motions."});
   s.add("level_checks", inherited<P>(&SpaceParameters::level_checks),
         {.unit = "1",
          .min = 1,
@@ -82,8 +79,8 @@ class SpacePlanner {
   using StateType = SamplingProblem::StateType;
 
   virtual ~SpacePlanner() = default;
-  /// Continues until there is a path or `stop` returns true. Returns the path from the start to a separated state; empty
-  /// if stopped.
+  /// Continues until there is a path or `stop` returns true. Returns the path from the start to a separated state;
+  /// empty if stopped.
   virtual std::vector<StateType> solve(const ompl::base::PlannerTerminationCondition& stop) = 0;
   /// The checker refused the motion of the last path from state `edge` - 1 to `edge`. It is not used again.
   virtual void discard(std::size_t edge) = 0;

@@ -10,8 +10,8 @@
 namespace dismantle::sampling {
 
 /// The current node is the one nearest to a random state. Its goal is the nearest state with the same orientation whose
-/// box is outside the box of the fixed parts. A node already extended towards its nearest exit gets the next nearest one
-/// the next time, because repeating the extension would end in the same state.
+/// box is outside the box of the fixed parts. A node already extended towards its nearest exit gets the next nearest
+/// one the next time, because repeating the extension would end in the same state.
 class NearestExit final : public TargetRule {
  public:
   explicit NearestExit(SamplingProblem& problem) : problem_(problem) {}

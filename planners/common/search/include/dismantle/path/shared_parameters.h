@@ -26,8 +26,8 @@ void add_level_steps(Schema<P>& s, std::int64_t P::*member) {
   s.add("level_steps", member,
         {.unit = "1",
          .min = 1,
-         .doc = "Limit of simulated time steps for depth 1 when the sequence planner limits the depth. Each further level "
-                "doubles the limit."});
+         .doc = "Limit of simulated time steps at depth 1 when the sequence planner limits the depth. Each further "
+                "level doubles the limit."});
 }
 
 }  // namespace dismantle::path

@@ -30,13 +30,13 @@ struct TreeParameters {
 template <class P>
 void describe_poses(Schema<P>& s) {
   using path::inherited;
-  s.add(
-      "tolerance_share", inherited<P>(&TreeParameters::tolerance_share),
-      {.unit = "1",
-       .min = 0,
-       .max = 1,
-       .doc = "Share of verify.max_penetration by which a pose may penetrate deeper than the assembled pose does. Depth "
-              "is measured at samples. Larger: the verifier refuses more paths. Smaller: tight fits stay closed."});
+  s.add("tolerance_share", inherited<P>(&TreeParameters::tolerance_share),
+        {.unit = "1",
+         .min = 0,
+         .max = 1,
+         .doc =
+             "Share of verify.max_penetration by which a pose may penetrate deeper than the assembled pose does. Depth "
+             "is measured at samples. Larger: the verifier refuses more paths. Smaller: tight fits stay closed."});
   s.add("step", inherited<P>(&TreeParameters::step),
         {.unit = "unit",
          .min = 1e-5,
@@ -63,13 +63,13 @@ void describe_samples(Schema<P>& s) {
          .max = 1e7,
          .doc = "Advanced. Maximum number of samples of a part near another one; a fifth as many are on its whole "
                 "surface. More: fewer paths are refused, each state check costs more."});
-  s.add(
-      "overlap_reach", inherited<P>(&TreeParameters::overlap_reach),
-      {.unit = "overlap",
-       .min = 0,
-       .max = 1000,
-       .doc = "Advanced. For a group thinner than its initial overlap: distance from the start up to which that overlap "
-              "is allowed, as a multiple of the overlap, plus two cells."});
+  s.add("overlap_reach", inherited<P>(&TreeParameters::overlap_reach),
+        {.unit = "overlap",
+         .min = 0,
+         .max = 1000,
+         .doc =
+             "Advanced. For a group thinner than its initial overlap: distance from the start up to which that overlap "
+             "is allowed, as a multiple of the overlap, plus two cells."});
 }
 
 /// Declares how the steps of an extension vary.
@@ -88,20 +88,18 @@ void describe_extensions(Schema<P>& s) {
          .min = 1,
          .max = 100,
          .doc = "Advanced. Longest first step of an extension, as a multiple of `step`."});
-  s.add(
-      "step_growth", inherited<P>(&TreeParameters::step_growth),
-      {.unit = "1",
-       .min = 1,
-       .max = 10,
-       .doc = "Advanced. Ratio of each step of an extension to the step before, while poses are valid. Larger: free "
-              "space is crossed with fewer state checks, but more of them are wasted at obstacles."});
-  s.add(
-      "longest_step", inherited<P>(&TreeParameters::longest_step),
-      {.unit = "step",
-       .min = 1,
-       .max = 1000,
-       .doc = "Advanced. Longest step of an extension, as a multiple of `step`. Poses between two steps are not "
-              "checked, so longer steps may pass through thin obstacles; the verifier refuses such paths."});
+  s.add("step_growth", inherited<P>(&TreeParameters::step_growth),
+        {.unit = "1",
+         .min = 1,
+         .max = 10,
+         .doc = "Advanced. Ratio of each step of an extension to the step before, while poses are valid. Larger: free "
+                "space is crossed with fewer state checks, but more of them are wasted at obstacles."});
+  s.add("longest_step", inherited<P>(&TreeParameters::longest_step),
+        {.unit = "step",
+         .min = 1,
+         .max = 1000,
+         .doc = "Advanced. Longest step of an extension, as a multiple of `step`. Poses between two steps are not "
+                "checked, so longer steps may pass through thin obstacles; the verifier refuses such paths."});
   s.add("extension_steps", inherited<P>(&TreeParameters::extension_steps),
         {.unit = "1",
          .min = 1,
@@ -123,27 +121,24 @@ void describe_paths(Schema<P>& s) {
       {.unit = "max_penetration",
        .min = 0.01,
        .max = 1000,
-       .doc =
-           "Advanced. Distance between the state checks along a shortcut, as a multiple of verify.max_penetration. "
-           "Larger: faster, but more paths are refused."});
+       .doc = "Advanced. Distance between the state checks along a shortcut, as a multiple of verify.max_penetration. "
+              "Larger: faster, but more paths are refused."});
   path::add_thinning(s, inherited<P>(&TreeParameters::thinning));
   s.add("max_refusals", inherited<P>(&TreeParameters::max_refusals),
         {.unit = "1", .min = 1, .max = 1e6, .doc = "Paths that the verifier may refuse before the search gives up."});
-  s.add(
-      "repairs", inherited<P>(&TreeParameters::repairs),
-      {.unit = "1",
-       .min = 0,
-       .max = 1000,
-       .doc = "Advanced. Number of times that a refused path is shortened again with the refused place as a new sample. "
-              "After that its branch is cut."});
-  s.add(
-      "resume_share", inherited<P>(&TreeParameters::resume_share),
-      {.unit = "1",
-       .min = 0,
-       .max = 1,
-       .doc = "Advanced. A search resumes an earlier tree only if at least this share of the tree's invalid poses since "
-              "its last progress was due to parts that have left. Smaller: trees are resumed more often, even from "
-              "dead ends."});
+  s.add("repairs", inherited<P>(&TreeParameters::repairs),
+        {.unit = "1",
+         .min = 0,
+         .max = 1000,
+         .doc =
+             "Advanced. Number of times that a refused path is shortened again with the refused place as a new sample. "
+             "After that its branch is cut."});
+  s.add("resume_share", inherited<P>(&TreeParameters::resume_share),
+        {.unit = "1",
+         .min = 0,
+         .max = 1,
+         .doc = "Advanced. An earlier tree is resumed only if parts that have left caused at least this share of its "
+                "invalid poses since its last progress. Smaller: trees are resumed more often, even in dead ends."});
 }
 
 struct Parameters : TreeParameters {
@@ -163,34 +158,37 @@ struct Parameters : TreeParameters {
            .max = 1,
            .doc = "Share of the extensions from poses that are furthest out in some direction. Smaller: the tree fills "
                   "more of the space around the start."});
-    s.add("outward_step", &Parameters::outward_step,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .doc = "Advanced. Share of the `outward` extensions that move on in that direction; the others are random."});
+    s.add(
+        "outward_step", &Parameters::outward_step,
+        {.unit = "1",
+         .min = 0,
+         .max = 1,
+         .doc = "Advanced. Share of the `outward` extensions that move on in that direction; the others are random."});
     s.add("direct", &Parameters::direct,
           {.unit = "1",
            .min = 0,
            .max = 1,
            .doc = "Advanced. Share of the extensions in an outward direction that have no random component."});
-    s.add("recent", &Parameters::recent,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .doc = "Advanced. Share of the extensions without `outward` that start from one of the `newest` nodes; the rest "
-                  "start from any node."});
+    s.add(
+        "recent", &Parameters::recent,
+        {.unit = "1",
+         .min = 0,
+         .max = 1,
+         .doc = "Advanced. Share of the extensions without `outward` that start from a node of the `newest`; the rest "
+                "start from any node."});
     s.add("newest", &Parameters::newest,
           {.unit = "1", .min = 1, .max = 1e9, .doc = "Advanced. Number of nodes that count as new."});
     s.add("state_checks", &Parameters::state_checks,
           {.unit = "1", .min = 1, .max = 1e12, .doc = "State checks before the search gives up."});
-    s.add("level_state_checks", &Parameters::level_state_checks,
-          {.unit = "1",
-           .min = 0,
-           .max = 1e12,
-           .min_open = true,
-           .doc =
-               "Limit of state checks for depth 1 when the sequence planner limits the depth. Each further level doubles "
-               "the limit, up to `state_checks`."});
+    s.add(
+        "level_state_checks", &Parameters::level_state_checks,
+        {.unit = "1",
+         .min = 0,
+         .max = 1e12,
+         .min_open = true,
+         .doc =
+             "Limit of state checks for depth 1 when the sequence planner limits the depth. Each further level doubles "
+             "the limit, up to `state_checks`."});
     describe_extensions(s);
     describe_samples(s);
     describe_paths(s);

@@ -13,8 +13,8 @@
 
 namespace dismantle::tolerant_walk {
 
-/// Where a pair may penetrate as deeply as when assembled. With `everywhere`, a part thinner than its overlap could pass
-/// through walls. With `near_start`, a part with interference along its whole path could never leave.
+/// Where a pair may penetrate as deeply as when assembled. With `everywhere`, a part thinner than its overlap could
+/// pass through walls. With `near_start`, a part with interference along its whole path could never leave.
 enum class Overlap { everywhere, near_start };
 
 /// Checks a necessary condition at samples: no pair penetrates deeper than its initial overlap plus `max_penetration`.
