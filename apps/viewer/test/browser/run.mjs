@@ -189,7 +189,8 @@ onPage('a partial plan shows each reason, what was in the way and the best pose'
     if (u.message) assert.ok(text.includes(u.message));
     for (const name of u.blocked_by) assert.ok(text.includes(name));
     assert.equal(await page.evaluate(n => window.dismantle.colour(n), u.part), '#e5484d');
-    await own.getByRole('button', {name: 'Show what holds it'}).click();
+    const moved = distance(placed(u.best_pose, [1, 2, 3]), [1, 2, 3]) > 1e-3;
+    await own.getByRole('button', {name: moved ? 'Show how far it got' : 'Show what holds it'}).click();
     assert.equal((await page.evaluate('window.dismantle.state()')).best, u.part);
     await page.waitForTimeout(2500);
     assert.ok(distance(await page.evaluate(n => window.dismantle.shownPoint(n, [1, 2, 3]), u.part), placed(u.best_pose, [1, 2, 3])) < 1e-6);
