@@ -213,11 +213,11 @@ const Certificate* ProofSchedule::after(const Attempt& attempt, const PathResult
 }
 
 const Certificate* ProofSchedule::at_last(PartId part, const std::vector<PartId>& blocked_by,
-                                          const std::vector<PartId>& left, const RunContext& context) {
-  if (provers_.empty() || left.size() < 2) return nullptr;
+                                          const std::vector<PartId>& group, const RunContext& context) {
+  if (provers_.empty() || group.size() < 2) return nullptr;
   std::optional<PartId> holder;
-  if (left.size() == 2)
-    holder = left.front() == part ? left.back() : left.front();
+  if (group.size() == 2)
+    holder = group.front() == part ? group.back() : group.front();
   else if (blocked_by.size() == 1)
     holder = blocked_by.front();
   if (holder && *holder != part) {
@@ -227,7 +227,7 @@ const Certificate* ProofSchedule::at_last(PartId part, const std::vector<PartId>
       return whole != nullptr ? whole : reduced;
     }
   }
-  return left.size() > 2 ? prove({left, ProofEffort::high, options_.reduced_tolerance}, context) : nullptr;
+  return group.size() > 2 ? prove({group, ProofEffort::high, options_.reduced_tolerance}, context) : nullptr;
 }
 
 }  // namespace dismantle

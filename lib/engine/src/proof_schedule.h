@@ -48,8 +48,9 @@ class ProofSchedule {
   std::vector<SearchPause> during(const Attempt& attempt, const RunContext& context);
   /// Tries proofs after a search that found no path.
   const Certificate* after(const Attempt& attempt, const PathResult& result, const RunContext& context);
-  /// At the end of a run: why `part` is left, together with the others of `left`, if that can be proved.
-  const Certificate* at_last(PartId part, const std::vector<PartId>& blocked_by, const std::vector<PartId>& left,
+  /// At the end of a run: a proof about `part` and others of `group`, the parts that it is not separated from (`part`
+  /// included), or null.
+  const Certificate* at_last(PartId part, const std::vector<PartId>& blocked_by, const std::vector<PartId>& group,
                              const RunContext& context);
   /// As PathOracle::prove.
   const Certificate* prove(const SeparationQuestion& question, const RunContext& context);

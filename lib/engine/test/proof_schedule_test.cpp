@@ -352,5 +352,42 @@ TEST(ProofSchedule, QuestionsThatMakeNoSense) {
     EXPECT_THROW(s.oracle->prove({{0, 1}, ProofEffort::low, share}, {}), std::invalid_argument);
 }
 
+/// Two parts leave the other two together; then nothing is searched for. The proof is about the group of a part, and
+/// the report has it, whether it covers the full tolerance or not.
+TEST(ProofSchedule, RemainingPartsAreReportedWithTheProofOfTheirGroup) {
+  const auto separates_pairs = std::make_shared<fake::Custom>(
+      [](const Assembly&, PathOracle& oracle, SequenceObserver& observer, RunContext& context) {
+        Attempt attempt;
+        attempt.moving = {{0, Pose{}}, {1, Pose{}}};
+        attempt.fixed = {{2, Pose{}}, {3, Pose{}}};
+        SequenceResult result;
+        result.outcome = Outcome::exhausted;
+        result.removals.push_back({{0, 1}, &oracle.attempt(attempt, context)});
+        observer.removed(result.removals.back(), 2);
+        for (const PartId id : {0U, 1U, 2U, 3U}) {
+          result.remaining.push_back(id);
+          result.unsolved.push_back({id, Outcome::exhausted, {}, {}, "searched", nullptr});
+        }
+        return result;
+      });
+  for (const double largest_share : {1.0, 0.5}) {
+    const NamedProver prover =
+        fake::prover("p", kHigh, [&](const SeparationQuery& q, const RunContext&) -> std::optional<Certificate> {
+          return q.share <= largest_share ? std::optional(claim(q)) : std::nullopt;
+        });
+    RunContext context;
+    const RunResult r = run(row(4), with(fake::setup(fake::push, separates_pairs), {prover}), {}, context);
+    ASSERT_EQ(r.plan.disassembly.size(), 1U);
+    ASSERT_EQ(r.plan.unsolved.size(), 4U);
+    for (const PlanUnsolved& u : r.plan.unsolved) {
+      const unsigned id = static_cast<unsigned>(u.part.back() - '0');
+      EXPECT_EQ(u.outcome, largest_share < 1 ? Outcome::exhausted : Outcome::infeasible);
+      EXPECT_EQ(u.message, "claimed");
+      EXPECT_EQ(u.blocked_by, std::vector<std::string>{"block" + std::to_string(id ^ 1U)});
+      EXPECT_TRUE(u.certificate.has_value());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dismantle

@@ -68,7 +68,7 @@ bool PathSearcher::search(GroupState& group, SubassemblyId id, unsigned depth, c
   if (!state_.stop() || state_.failure_of(part) == nullptr)
     state_.set_failure(
         {part, result.outcome(), result.blocked_by, result.best_pose, result.message, answer.certificate});
-  history_.add(id, {depth, result.outcome(), result.blocked_by, group.members.size(), &answer}, result);
+  history_.add(id, {depth, result.outcome(), result.blocked_by, group.members.size()}, result);
   return false;
 }
 

@@ -15,7 +15,6 @@ struct PastSearch {
   Outcome outcome = Outcome::exhausted;
   std::vector<PartId> blocked_by;  ///< parts that were touched, most often first
   std::size_t group_size = 0;      ///< when it was made
-  const AttemptResult* answer = nullptr;
 };
 
 class SearchHistory final : public GroupListener {
