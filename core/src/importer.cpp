@@ -4,4 +4,6 @@ namespace dismantle {
 
 std::optional<std::uint64_t> Importer::count_triangles(const std::filesystem::path&) const { return std::nullopt; }
 
+std::vector<std::filesystem::path> Importer::referenced_files(const std::filesystem::path&) const { return {}; }
+
 }  // namespace dismantle

@@ -23,6 +23,9 @@ struct RawPart {
   std::vector<std::string> parents{};  ///< assemblies in the file that contain it, outermost first
   std::string unit{};                  ///< of its coordinates ("mm", "inch", "m"); empty if the file does not say
   std::string problem{};               ///< not empty: why the part cannot be used; `mesh` is then ignored
+  /// Of a part with a `problem`: the file itself says that it is no part of the assembly (hidden, support, annotation).
+  /// That is a note. All other problems are parts that the plan lacks: a warning, exit status 1.
+  bool by_meaning{};
 };
 
 /// Reads files of some formats into raw parts.
@@ -34,9 +37,13 @@ class DISMANTLE_API Importer {
   /// Number of triangles in the file, if known without building the meshes in memory. Lets the caller refuse a file
   /// that is too large. Never throws for broken files; `read` reports their problems.
   virtual std::optional<std::uint64_t> count_triangles(const std::filesystem::path& file) const;
-  /// All parts of one file, in file order. Warnings go to the context's log.
+  /// All parts that the file declares, in file order, also those that cannot be read: these have a `problem`. Nothing
+  /// is left away in silence. Warnings go to the context's log; the caller counts them as findings about the input.
   /// @throws InputError naming the file and what is wrong with it. @throws Error when `context` wants to stop.
   virtual std::vector<RawPart> read(const std::filesystem::path& file, const RunContext& context) = 0;
+  /// Other files that `read` opens for their geometry, because `file` refers to them: buffers, external references.
+  /// Only files that may_read_referenced() allows. Never throws for broken files.
+  virtual std::vector<std::filesystem::path> referenced_files(const std::filesystem::path& file) const;
 };
 
 }  // namespace dismantle

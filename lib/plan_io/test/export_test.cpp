@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "dismantle/errors.h"
+#include "dismantle/geometry/length_unit.h"
 #include "dismantle/plan_io/exports.h"
 #include "dismantle/plan_io/groups.h"
 #include "dismantle/plan_io/input_frame.h"

@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "dismantle/errors.h"
+#include "dismantle/geometry/length_unit.h"
 #include "dismantle/geometry/mesh_measure.h"
-#include "dismantle/plan_io/input_frame.h"
 #include "dismantle/testing/mesh_damage.h"
 #include "selection.h"
 

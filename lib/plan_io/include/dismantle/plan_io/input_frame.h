@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "dismantle/assembly.h"
@@ -23,10 +22,6 @@ struct InputFrame {
   /// Turns input axes to those of glTF.
   Eigen::Quaterniond to_y_up() const;
 };
-
-/// Metres in a unit that importers name: um, mm, cm, dm, m, km, mil, inch, foot, mile.
-/// @throws InputError for another one, with the list.
-DISMANTLE_API double metres_in(std::string_view unit);
 
 /// @throws InputError as metres_in().
 DISMANTLE_API InputFrame input_frame(const Assembly& assembly);

@@ -11,7 +11,7 @@ namespace dismantle {
 
 /// Major: any change of a boundary type's layout, of a vtable, or of the meaning of a call.
 /// Minor: functions appended to what the host provides, or fields appended to PluginHeader.
-inline constexpr std::uint16_t kPluginApiMajor = 5;
+inline constexpr std::uint16_t kPluginApiMajor = 6;
 /// Raised when the host offers more to plugins; older plugins stay valid.
 inline constexpr std::uint16_t kPluginApiMinor = 0;
 inline constexpr std::uint32_t kPluginMagic = 0x4c504d44;  ///< "DMPL" in a little-endian file
