@@ -55,14 +55,17 @@ void draw_pairs(AssemblyCheck&, const Assembly&, const Check&, const RunContext&
 }
 #endif
 
-int finish(const AssemblyCheck& check, const std::string& input, bool usable, Console& console) {
+int finish(const AssemblyCheck& check, const Check& options, bool usable, Console& console) {
   console.end_progress();
-  console.text(findings_text(check, input));
+  console.text(findings_text(check, options.input, options.console.verbose));
+  if (options.console.quiet)
+    for (const Finding& finding : check.findings)
+      if (finding.severity == Severity::error) console.error(finding.message);
   nlohmann::ordered_json json = {{"status", usable ? "complete" : "error"}};
   json.update(nlohmann::ordered_json::parse(findings_json(check)));
   console.result(std::move(json));
   if (!usable) return kBadInput;
-  return check.count(Severity::error) + check.count(Severity::warning) == 0 ? kComplete : kPartial;
+  return check.sound() ? kComplete : kPartial;
 }
 
 int check(const Check& options) {
@@ -80,10 +83,10 @@ int check(const Check& options) {
       return check_assembly(assembly, report, resolution, context);
     });
     if (!options.pictures.empty()) draw_pairs(found, assembly, options, context);
-    return finish(found, options.input, true, console);
+    return finish(found, options, true, console);
   } catch (const InputError&) {
     if (report.parts.empty()) throw;
-    return finish(check_parts(report), options.input, false, console);
+    return finish(check_parts(report), options, false, console);
   }
 }
 
@@ -108,7 +111,9 @@ void add_check(CLI::App& app, Action& action) {
       "Finds parts that are open, have no volume or had to be repaired, duplicates, pairs that overlap (depth, place, "
       "class),\n"
       "parts inside the solid of others, and parts that touch nothing. Counts the contacts of each class.\n"
-      "Exit status: 0 nothing found, 1 something was found, 3 the input cannot be planned with.\n"
+      "Says what plan says about the input, too. Exit status: 0 nothing has to be mended, 1 something has to be, or "
+      "is\n"
+      "missing, 3 the input cannot be planned with.\n"
       "Examples:\n"
       "  dismantle check gearbox/\n"
       "  dismantle check gearbox/ --pictures overlaps/\n"

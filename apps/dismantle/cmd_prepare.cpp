@@ -33,7 +33,8 @@ int prepare(const Prepare& options) {
   const Assembly assembly = load_assembly(options.input, config, registry, context, report);
   const auto files = write_prepared(assembly, report, options.folder);
   console.end_progress();
-  console.text(prepare_text(assembly, report) + fmt::format("wrote {} files to {}\n", files.size(), options.folder));
+  console.text(prepare_text(assembly, report, options.console.verbose) +
+               fmt::format("wrote {} files to {}\n", files.size(), options.folder));
   const auto unusable = unusable_parts(assembly);
   console.result({{"status", unusable.empty() ? "complete" : "partial"},
                   {"parts", assembly.parts.size()},

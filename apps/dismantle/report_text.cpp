@@ -44,7 +44,7 @@ std::string check_text(const Plan& plan, const PlanCheck& check) {
   return out;
 }
 
-std::string prepare_text(const Assembly& assembly, const PrepareReport& report) {
+std::string prepare_text(const Assembly& assembly, const PrepareReport& report, bool verbose) {
   std::size_t width = 4;
   for (const auto& part : report.parts) width = text::column_of(width, part.name);
   std::string out = fmt::format("{}: {} read, {} kept\n", assembly.source, text::counted(report.parts.size(), "part"),
@@ -53,7 +53,7 @@ std::string prepare_text(const Assembly& assembly, const PrepareReport& report) 
       fmt::format("  {}  {:>9}  {:>6}  {:>12}  done\n", text::padded("part", width), "triangles", "shells", "volume");
   for (const auto& part : report.parts) {
     std::string done = part.kept ? "" : "LEFT OUT: " + part.reason;
-    for (const auto& action : part.actions) done += (done.empty() ? "" : "; ") + action;
+    for (const auto& action : verbose ? part.actions : part.summary) done += (done.empty() ? "" : "; ") + action;
     out += fmt::format("  {}  {:>9}  {:>6}  {:>12.6g}  {}\n", text::padded(part.name, width), part.triangles,
                        part.shells, part.volume, done.empty() ? "nothing" : done);
   }

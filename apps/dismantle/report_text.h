@@ -14,6 +14,6 @@ namespace dismantle {
 std::string check_text(const Plan& plan, const PlanCheck& check);
 
 /// The changes to each part, with reasons.
-std::string prepare_text(const Assembly& assembly, const PrepareReport& report);
+std::string prepare_text(const Assembly& assembly, const PrepareReport& report, bool verbose = false);
 
 }  // namespace dismantle

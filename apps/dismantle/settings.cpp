@@ -94,6 +94,7 @@ Assembly load_assembly(const std::string& input, const RunConfig& config, const 
     const ImportParams import_params = import_params_of(config, registry);
     InputParts parts = read_input(input, importers_of(registry, import_params), options, context);
     for (const auto& warning : parts.warnings) context.log(LogLevel::warning, warning);
+    for (const auto& note : parts.notes) context.log(LogLevel::info, note);
     check_part(part, parts.parts, input);
     check_constraint_names(config, names_of(parts.parts), input);
     const auto& ignore = config.constraints.ignore;
@@ -103,7 +104,15 @@ Assembly load_assembly(const std::string& input, const RunConfig& config, const 
         ignored.push_back({raw.name, "the configuration says to ignore it (constraints.ignore)", true});
     std::erase_if(parts.parts,
                   [&](const auto& raw) { return std::find(ignore.begin(), ignore.end(), raw.name) != ignore.end(); });
-    Assembly assembly = prepare_assembly(std::move(parts.parts), input, parts.sha256, config.assembly, context, report);
+    Assembly assembly = [&] {
+      try {
+        return prepare_assembly(std::move(parts.parts), input, parts.sha256, config.assembly, context, report);
+      } catch (const InputError&) {
+        add_findings(parts, report);
+        throw;
+      }
+    }();
+    add_findings(parts, report);
     assembly.import_params = import_params;
     declare_overlaps(config.constraints, assembly);
     report.flexible = with_declared(std::move(report.flexible), config.constraints.flexible, assembly);

@@ -82,6 +82,7 @@ LoadedAssembly load(const std::string& path, const std::string& file, const std:
     const ImportParams params = import_params_of(config, *registry);
     InputParts input = read_input(path, importers_of(*registry, params), options, context);
     for (const auto& warning : input.warnings) context.log(LogLevel::warning, warning);
+    for (const auto& note : input.notes) context.log(LogLevel::info, note);
     return prepared(std::move(input.parts), path, input.sha256, config, params, context);
   });
 }

@@ -34,7 +34,9 @@ class Preparation {
     assembly_.sha256 = sha256;
     assembly_.repair = {options_.weld, options_.repair, options_.max_hole};
     check_size(raw);
-    make_names_unique(raw, report_.warnings);
+    std::vector<std::string> renamed;
+    make_names_unique(raw, renamed);
+    for (auto& text : renamed) warn(std::move(text));
     clean(raw);
     if (options_.drop_duplicates) drop(find_duplicates(parts_, context_));
     if (options_.max_overlap < 1) drop(find_overlapping(parts_, options_.max_overlap, context_));
@@ -47,12 +49,18 @@ class Preparation {
     measure_overlaps();
     if (options_.flexible == FlexibleParts::recognised) report_.flexible = recognise_flexible(assembly_, context_);
     for (const auto& part : report_.parts)
-      if (!part.kept) assembly_.excluded.push_back({part.name, part.reason, part.by_choice});
+      if (!part.kept) assembly_.excluded.push_back({part.name, part.reason, part.by_choice || part.by_meaning});
     for (const auto& warning : report_.warnings) context_.log(LogLevel::warning, warning);
     return std::move(assembly_);
   }
 
  private:
+  /// About the assembly as a whole.
+  void warn(std::string text) {
+    report_.whole.push_back(text);
+    report_.warnings.push_back(std::move(text));
+  }
+
   void check_size(const std::vector<RawPart>& raw) const {
     std::uint64_t triangles = 0;
     for (const auto& part : raw) triangles += part.mesh.triangles.size();
@@ -71,9 +79,10 @@ class Preparation {
           report_.parts[i].name = raw[i].name;
           report_.parts[i].file = raw[i].file;
           if (raw[i].problem.empty()) {
-            repair_part(raw[i].mesh, options_, report_.parts[i], context_);
+            repair_part(raw[i].mesh, raw[i].unit, options_, report_.parts[i], context_);
           } else {
             report_.parts[i].kept = false;
+            report_.parts[i].by_meaning = raw[i].by_meaning;
             report_.parts[i].reason = raw[i].problem;
           }
         },
@@ -83,6 +92,10 @@ class Preparation {
       for (const auto& action : report.actions)
         if (action.starts_with("warning: "))
           report_.warnings.push_back(fmt::format("part '{}': {}", report.name, action.substr(9)));
+      if (report.by_meaning) {
+        context_.log(LogLevel::info, fmt::format("'{}' is left out: {}", report.name, report.reason));
+        continue;
+      }
       if (!report.kept) {
         report_.warnings.push_back(fmt::format("part '{}' is left out: {}", report.name, report.reason));
         continue;
@@ -107,7 +120,7 @@ class Preparation {
     const double size = c.box.size().norm();
     const double magnitude = std::max(c.box.lo.cwiseAbs().maxCoeff(), c.box.hi.cwiseAbs().maxCoeff());
     if (magnitude * 2.2e-16 > 1e-8 * size)
-      report_.warnings.push_back(
+      warn(
           fmt::format("part '{}' of size {:.3g} lies at coordinates around {:.3g}: only {:.0f} digits of its shape are "
                       "left; move the assembly to the origin",
                       c.name, size, magnitude, std::max(0.0, std::floor(-std::log10(magnitude * 2.2e-16 / size)))));
@@ -153,8 +166,8 @@ class Preparation {
       for (std::size_t k = 0; k < std::min<std::size_t>(groups[g].size(), 5); ++k)
         names += fmt::format("{}'{}'", k ? ", " : "", parts_[groups[g][k]].name);
       if (groups[g].size() > 5) names += fmt::format(" and {} more", groups[g].size() - 5);
-      report_.warnings.push_back(fmt::format("{} {} apart from the rest, by more than 1 % of the assembly", names,
-                                             groups[g].size() == 1 ? "floats" : "float"));
+      warn(fmt::format("{} {} apart from the rest, by more than 1 % of the assembly", names,
+                       groups[g].size() == 1 ? "floats" : "float"));
     }
   }
 
@@ -184,7 +197,7 @@ class Preparation {
     if (units.size() < 2) return;
     std::string text;
     for (const auto& [unit, name] : units) text += fmt::format("{}'{}' in {}", text.empty() ? "" : ", ", name, unit);
-    report_.warnings.push_back("parts are given in different length units, none is converted: " + text);
+    warn("parts are given in different length units, none is converted: " + text);
   }
 
   void normalize() {
@@ -211,9 +224,8 @@ class Preparation {
       assembly_.parts.push_back(std::move(part));
     }
     if (count && options_.normalize)
-      report_.warnings.push_back(
-          fmt::format("{} part{} smaller than 0.2 % of the assembly, no larger than the tolerances of planning: {}{}",
-                      count, count == 1 ? " is" : "s are", small, count > 5 ? "..." : ""));
+      warn(fmt::format("{} part{} smaller than 0.2 % of the assembly, no larger than the tolerances of planning: {}{}",
+                       count, count == 1 ? " is" : "s are", small, count > 5 ? "..." : ""));
   }
 
   void subdivide_parts() {

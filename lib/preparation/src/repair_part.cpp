@@ -26,8 +26,9 @@ std::string counted(std::size_t n, std::string what) {
 
 class PartRepair {
  public:
-  PartRepair(Mesh& mesh, const PrepareOptions& options, PartReport& report, const RunContext& context)
-      : mesh_(mesh), options_(options), report_(report), context_(context) {}
+  PartRepair(Mesh& mesh, const std::string& unit, const PrepareOptions& options, PartReport& report,
+             const RunContext& context)
+      : mesh_(mesh), unit_(unit), options_(options), report_(report), context_(context) {}
 
   void run() {
     if (!sound()) return finish();
@@ -68,6 +69,7 @@ class PartRepair {
   template <class... Args>
   void did(fmt::format_string<Args...> format, Args&&... args) {
     report_.actions.push_back(fmt::format(format, std::forward<Args>(args)...));
+    report_.summary.push_back(report_.actions.back());
   }
 
   void reject(std::string reason) {
@@ -154,14 +156,16 @@ class PartRepair {
     if (options_.repair && use.open) {
       HoleLimits limits;
       limits.max_area_share = options_.max_hole;
-      for (const Hole& h : fill_holes(mesh_, limits)) {
-        if (h.filled)
-          did("closed a hole of {} near {}, area {:.4g}{}", counted(h.edges, "edge"), text(h.center), h.area,
-              h.flat ? "" : ", with the smallest surface on its rim, which is not flat");
-        else
-          did("left a hole of {} near {}, area {:.4g}, open: {}", counted(h.edges, "edge"), text(h.center), h.area,
-              h.why_not);
-      }
+      const std::vector<Hole> holes = fill_holes(mesh_, limits);
+      for (const Hole& h : holes)
+        report_.actions.push_back(
+            h.filled
+                ? fmt::format("closed a hole of {} near {}, area {}{}", counted(h.edges, "edge"), text(h.center),
+                              area(h.area), h.flat ? "" : ", with the smallest surface on its rim, which is not flat")
+                : fmt::format("left a hole of {} near {}, area {}, open: {}", counted(h.edges, "edge"), text(h.center),
+                              area(h.area), h.why_not));
+      sum_up(holes, true);
+      sum_up(holes, false);
       use = edge_use(mesh_);
       if (use.inconsistent) {
         orient();
@@ -169,6 +173,19 @@ class PartRepair {
       }
     }
     return use;
+  }
+
+  std::string area(double a) const { return fmt::format("{:.4g}{}", a, unit_.empty() ? "" : " " + unit_ + "2"); }
+
+  void sum_up(const std::vector<Hole>& holes, bool filled) {
+    const Hole* largest = nullptr;
+    std::size_t count = 0;
+    for (const Hole& h : holes)
+      if (h.filled == filled && (++count == 1 || h.area > largest->area)) largest = &h;
+    if (count == 0) return;
+    report_.summary.push_back(fmt::format("{} {}{} {} at {}{}", filled ? "closed" : "left open", counted(count, "hole"),
+                                          count > 1 ? ", the largest" : ", area", area(largest->area),
+                                          text(largest->center), filled ? "" : ": " + largest->why_not));
   }
 
   std::string open_text(const EdgeUse& use) const {
@@ -241,6 +258,7 @@ class PartRepair {
   }
 
   Mesh& mesh_;
+  const std::string& unit_;
   const PrepareOptions& options_;
   PartReport& report_;
   const RunContext& context_;
@@ -249,8 +267,9 @@ class PartRepair {
 
 }  // namespace
 
-void repair_part(Mesh& mesh, const PrepareOptions& options, PartReport& report, const RunContext& context) {
-  PartRepair(mesh, options, report, context).run();
+void repair_part(Mesh& mesh, const std::string& unit, const PrepareOptions& options, PartReport& report,
+                 const RunContext& context) {
+  PartRepair(mesh, unit, options, report, context).run();
 }
 
 }  // namespace dismantle

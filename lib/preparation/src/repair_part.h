@@ -8,6 +8,7 @@ namespace dismantle {
 
 /// Changes `mesh` in place (input units) and fills `report` but for name and file. report.kept says whether it is
 /// usable.
-void repair_part(Mesh& mesh, const PrepareOptions& options, PartReport& report, const RunContext& context);
+void repair_part(Mesh& mesh, const std::string& unit, const PrepareOptions& options, PartReport& report,
+                 const RunContext& context);
 
 }  // namespace dismantle

@@ -159,5 +159,75 @@ TEST(CheckAssembly, JsonHoldsEveryFinding) {
   EXPECT_GT(json["findings"][0]["depth"].get<double>(), 0);
 }
 
+/// A box whose faces are cut into cells, some of which are missing.
+RawPart box_with_holes(const std::string& name, int holes) {
+  const int n = 12;
+  RawPart part{name, name + ".obj", {}};
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side)
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+          if (i % 3 == 1 && j % 3 == 1 && holes-- > 0) continue;
+          const auto corner = [&](int u, int v) {
+            Eigen::Vector3d p;
+            p[axis] = side * 10;
+            p[(axis + 1) % 3] = 10.0 * u / n;
+            p[(axis + 2) % 3] = 10.0 * v / n;
+            part.mesh.vertices.push_back(p);
+            return static_cast<std::uint32_t>(part.mesh.vertices.size() - 1);
+          };
+          const auto a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1), d = corner(i, j + 1);
+          if (side == 1) {
+            part.mesh.triangles.push_back({a, b, c});
+            part.mesh.triangles.push_back({a, c, d});
+          } else {
+            part.mesh.triangles.push_back({a, c, b});
+            part.mesh.triangles.push_back({a, d, c});
+          }
+        }
+  return part;
+}
+
+TEST(CheckAssembly, RepairsAreSummedUpAndToldInFullOnRequest) {
+  RawPart a = box_with_holes("a", 7);
+  a.unit = "mm";
+  RawPart b = raw_box("b", {10, 0, 0}, {20, 10, 10});
+  b.unit = "mm";
+  const AssemblyCheck check = checked({a, b});
+  const auto repaired = of_kind(check, FindingKind::repaired);
+  ASSERT_EQ(repaired.size(), 1u);
+  EXPECT_NE(repaired[0].message.find("closed 7 holes, the largest 0.6944 mm2 at ("), std::string::npos)
+      << repaired[0].message;
+  const auto holes = [](const std::string& text) {
+    std::size_t n = 0;
+    for (std::size_t at = text.find("closed a hole"); at != std::string::npos; at = text.find("closed a hole", at + 1))
+      ++n;
+    return n;
+  };
+  EXPECT_EQ(holes(findings_text(check, "x")), 0u);
+  EXPECT_EQ(holes(findings_text(check, "x", true)), 7u);
+  EXPECT_EQ(holes(findings_json(check)), 7u);
+}
+
+TEST(CheckAssembly, SaysWhatPlanSaysAboutTheInput) {
+  RawPart hidden = raw_box("ghost", {0, 0, 0}, {1, 1, 1});
+  hidden.problem = "it is hidden";
+  hidden.by_meaning = true;
+  RawPart a = raw_box("a", {0, 0, 0}, {10, 10, 10}), b = raw_box("b", {10, 0, 0}, {20, 10, 10});
+  a.unit = "mm";
+  b.unit = "inch";
+  const auto kinds = [](const AssemblyCheck& check) {
+    std::vector<Severity> out;
+    for (const Finding& f : of_kind(check, FindingKind::input)) out.push_back(f.severity);
+    return out;
+  };
+  const AssemblyCheck check = checked({a, b, hidden});
+  EXPECT_EQ(kinds(check), (std::vector<Severity>{Severity::warning, Severity::note})) << findings_text(check, "x");
+  EXPECT_EQ(check.parts, 2u);
+  EXPECT_TRUE(check.sound());
+  hidden.by_meaning = false;
+  EXPECT_FALSE(checked({a, b, hidden}).sound());
+}
+
 }  // namespace
 }  // namespace dismantle

@@ -17,18 +17,31 @@ class BoxImporter : public Importer {
  public:
   std::vector<std::string> extensions() const override { return {"box", "cube"}; }
   std::optional<std::uint64_t> count_triangles(const fs::path& file) const override { return fs::file_size(file); }
-  std::vector<RawPart> read(const fs::path& file, const RunContext&) override {
+  std::vector<RawPart> read(const fs::path& file, const RunContext& context) override {
     ++files_read;
     std::ifstream in(file);
+    if (file.stem() == "noisy") {
+      context.log(LogLevel::warning, "bent \xFF");
+      context.log(LogLevel::info, "said");
+    }
     std::vector<RawPart> parts;
     for (std::string line; std::getline(in, line);) {
       if (line == "broken") throw InputError(file.string(), "line 1 is broken");
       parts.push_back({line, "", box({0, 0, 0}, {1, 1, 1})});
       if (line == "surface") parts.back().problem = "it is a surface";
+      if (line == "hidden") {
+        parts.back().problem = "it is hidden";
+        parts.back().by_meaning = true;
+      }
       if (line == "red") parts.back().colour = Rgba{255, 0, 0};
       if (line == "blue") parts.back().colour = Rgba{0, 0, 255};
     }
     return parts;
+  }
+  std::vector<fs::path> referenced_files(const fs::path& file) const override {
+    std::vector<fs::path> files;
+    if (const fs::path beside = fs::path(file).replace_extension(".data"); fs::exists(beside)) files.push_back(beside);
+    return files;
   }
   int files_read = 0;
 };
@@ -160,34 +173,69 @@ TEST(ReadInput, AFileOfAFolderThatCannotBeReadIsAPartWithAProblem) {
   EXPECT_EQ(in.sha256, read_input(folder.path(), importers()).sha256);
 }
 
-TEST(ReadInput, BodiesOfOneFileInAFolderAreOnePartOfWhatCanBeUsed) {
+TEST(ReadInput, FingerprintCoversReferencedFiles) {
   const TempFolder folder;
-  folder.write("1.box", "x\nsurface\ny\n");
-  folder.write("2.box", "surface\n");
-  folder.write("3.box", "red\nred\n");
-  folder.write("4.box", "red\nblue\n");
-  const auto in = read_input(folder.path(), importers());
-  ASSERT_EQ(in.parts.size(), 4u);
-  EXPECT_EQ(in.parts[0].mesh.triangles.size(), 24u);
-  EXPECT_EQ(in.parts[0].problem, "");
-  EXPECT_TRUE(any_contains(in.warnings, "'surface' of 1.box is left aside: it is a surface"));
-  EXPECT_EQ(in.parts[1].problem, "it is a surface");
-  EXPECT_EQ(in.parts[2].colour, (Rgba{255, 0, 0}));
-  EXPECT_EQ(in.parts[3].colour, std::nullopt);
+  const auto file = folder.write("1.box", "a");
+  folder.write("1.data", "bc");
+  EXPECT_EQ(read_input(file, importers()).sha256, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
-TEST(ReadInput, PipesSubFoldersAndOtherFormatsAreLeftAside) {
+TEST(ReadInput, BodiesOfOneFileInAFolderAreOnePartAndTheRestIsNamed) {
+  const TempFolder folder;
+  folder.write("1.box", "x\nsurface\nhidden\ny\n");
+  folder.write("2.box", "hidden\nsurface\n");
+  folder.write("3.box", "red\nred\n");
+  folder.write("4.box", "red\nblue\n");
+  folder.write("5.box", "hidden\n");
+  const auto in = read_input(folder.path(), importers());
+  EXPECT_EQ(names(in), (NameList{"1", "1/surface", "1/hidden", "2", "2/hidden", "3", "4", "5"}));
+  EXPECT_EQ(in.parts[0].mesh.triangles.size(), 24u);
+  EXPECT_EQ(in.parts[0].problem, "");
+  EXPECT_EQ(in.parts[1].problem, "it is a surface");
+  EXPECT_TRUE(in.parts[2].by_meaning);
+  EXPECT_EQ(in.parts[3].problem, "it is a surface");
+  EXPECT_FALSE(in.parts[3].by_meaning);
+  EXPECT_EQ(in.parts[5].colour, (Rgba{255, 0, 0}));
+  EXPECT_EQ(in.parts[6].colour, std::nullopt);
+  EXPECT_TRUE(in.parts[7].by_meaning);
+}
+
+TEST(ReadInput, WhatMayBeInputAndIsNotReadIsNamed) {
   const TempFolder folder;
   folder.write("1.box", "x");
   folder.write("2.step", "ISO-10303-21;");
-  fs::create_directory(folder / "more.box");
-  fs::create_directory_symlink(folder.path(), folder / "loop");
+  for (const char* name : {"more.box", "pictures", "deep", "deep/er", "cleaned"}) fs::create_directory(folder / name);
+  folder.write("more.box/3.box", "x");
+  folder.write("pictures/1.png", "x");
+  folder.write("deep/er/4.BOX", "x");
+  folder.write("cleaned/5.box", "x");
+  folder.write("cleaned/prepare.json", R"({"format": "dismantle.prepare", "version": 1})");
+  fs::create_directory_symlink(folder / "pictures", folder / "loop");
   ASSERT_EQ(::mkfifo((folder / "pipe.box").c_str(), 0600), 0);
   const auto in = read_input(folder.path(), importers());
-  EXPECT_EQ(names(in), (NameList{"1"}));
-  EXPECT_TRUE(any_contains(in.warnings, "sub-folders are not read: 2 of them"));
-  EXPECT_TRUE(any_contains(in.warnings, "'pipe.box' is no regular file"));
-  EXPECT_TRUE(any_contains(in.warnings, "no importer reads '.step'"));
+  EXPECT_EQ(names(in), (NameList{"1", "2.step", "deep/", "more.box/", "pipe.box"}));
+  for (std::size_t i = 1; i < in.parts.size(); ++i) {
+    EXPECT_FALSE(in.parts[i].problem.empty());
+    EXPECT_FALSE(in.parts[i].by_meaning);
+  }
+  EXPECT_NE(in.parts[1].problem.find("no importer reads '.step'"), std::string::npos);
+  EXPECT_NE(in.parts[2].problem.find("sub-folders are not read"), std::string::npos);
+  EXPECT_NE(in.parts[4].problem.find("it is no regular file"), std::string::npos);
+}
+
+TEST(ReadInput, WarningsAndNotesOfImportersAreFindings) {
+  const TempFolder folder;
+  RunContext context;
+  std::vector<std::string> logged;
+  context.on_log = [&](LogLevel, std::string_view text) { logged.emplace_back(text); };
+  const auto in = read_input(folder.write("noisy.box", "x\ny\n"), importers(), {}, context);
+  EXPECT_EQ(in.warnings, (NameList{"bent \xEF\xBF\xBD"}));
+  EXPECT_EQ(in.notes, (NameList{"said"}));
+  EXPECT_TRUE(logged.empty()) << "the caller says them";
+  PrepareReport report;
+  add_findings(in, report);
+  EXPECT_EQ(report.whole, in.warnings);
+  EXPECT_EQ(report.notes, in.notes);
 }
 
 TEST(ReadInput, TooManyTrianglesAreRefusedBeforeReading) {

@@ -150,6 +150,7 @@ std::vector<RawPart> read_in_child(const fs::path& file, const ReaderProgram& pr
   if (context.should_stop()) throw Error("stopped while reading " + file.string());
   failures.check(end, stream);
   for (const auto& warning : stream.warnings()) context.log(LogLevel::warning, fmt::format("{}: {}", name, warning));
+  for (const auto& note : stream.notes()) context.log(LogLevel::info, fmt::format("{}: {}", name, note));
   auto parts = stream.take_parts();
   if (parts.empty())
     throw InputError(file.string(), "there is no body in it: nothing but curves, points or empty products");

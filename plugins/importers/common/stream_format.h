@@ -18,8 +18,9 @@ enum class Tag : std::uint8_t {
   unit = 'U',       ///< text: the length unit of all coordinates
   phase = 'S',      ///< text, u32 done, u32 total: progress
   warning = 'W',    ///< text
+  note = 'N',       ///< text: nothing is wrong
   body = 'B',       ///< text name, u32 number of parents, their names, u8 has colour, 4 x u8 RGBA, text problem,
-                    ///< u64 vertices, u64 triangles
+                    ///< u8 by meaning, u64 vertices, u64 triangles
   vertices = 'V',   ///< 3 doubles each, of the last body
   triangles = 'T',  ///< 3 x u32 each, of the last body
   failure = 'E',    ///< u8 Failure, text

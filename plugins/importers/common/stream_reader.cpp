@@ -93,9 +93,12 @@ void StreamReader::record(Tag tag, Payload payload) {
       break;
     }
     case Tag::warning:
-      if (warnings_.size() >= kInputLimits.instances) throw Broken{"too many warnings"};
-      warnings_.push_back(payload.text());
+    case Tag::note: {
+      auto& texts = tag == Tag::warning ? warnings_ : notes_;
+      if (texts.size() >= kInputLimits.instances) throw Broken{"too many warnings"};
+      texts.push_back(payload.text());
       break;
+    }
     case Tag::body:
       begin_body(payload);
       break;
@@ -131,6 +134,7 @@ void StreamReader::begin_body(Payload& payload) {
   const auto rgba = payload.take<std::array<std::uint8_t, 4>>();
   if (coloured) part.colour = Rgba{rgba[0], rgba[1], rgba[2], rgba[3]};
   part.problem = payload.text();
+  part.by_meaning = payload.take<std::uint8_t>() != 0;
   part.unit = unit_;
   vertices_left_ = payload.take<std::uint64_t>();
   triangles_left_ = payload.take<std::uint64_t>();

@@ -34,6 +34,7 @@ class StreamReader {
   /// The failure that the reader program reported.
   const std::optional<Reported>& failure() const { return failure_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
+  const std::vector<std::string>& notes() const { return notes_; }
   std::vector<RawPart> take_parts();
 
  private:
@@ -50,7 +51,7 @@ class StreamReader {
   bool magic_ = false, ended_ = false;
   std::string problem_, unit_;
   std::optional<Reported> failure_;
-  std::vector<std::string> warnings_;
+  std::vector<std::string> warnings_, notes_;
   std::vector<RawPart> parts_;
   std::uint64_t vertices_left_ = 0, triangles_left_ = 0, triangles_ = 0;
 };

@@ -47,6 +47,12 @@ void StreamWriter::warning(const std::string& text) {
   record(Tag::warning, payload);
 }
 
+void StreamWriter::note(const std::string& text) {
+  std::string payload;
+  put_text(payload, text);
+  record(Tag::note, payload);
+}
+
 void StreamWriter::body(const Body& body) {
   std::string payload;
   put_text(payload, body.name);
@@ -56,6 +62,7 @@ void StreamWriter::body(const Body& body) {
   put(payload, static_cast<std::uint8_t>(body.colour.has_value()));
   for (const std::uint8_t channel : body.colour.value_or(std::array<std::uint8_t, 4>{})) put(payload, channel);
   put_text(payload, body.problem);
+  put(payload, static_cast<std::uint8_t>(body.by_meaning));
   put(payload, static_cast<std::uint64_t>(body.vertices.size()));
   put(payload, static_cast<std::uint64_t>(body.triangles.size()));
   record(Tag::body, payload);

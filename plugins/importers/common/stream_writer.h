@@ -15,7 +15,8 @@ struct Body {
   std::string name;
   std::vector<std::string> parents;                   ///< names of the assemblies that contain it, outermost first
   std::optional<std::array<std::uint8_t, 4>> colour;  ///< RGBA, sRGB
-  std::string problem;  ///< not empty: reason why it cannot be a part; then it has no triangles
+  std::string problem;      ///< not empty: reason why it cannot be a part; then it has no triangles
+  bool by_meaning = false;  ///< of a problem: the file itself says that it is no part
   std::vector<std::array<double, 3>> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
@@ -27,6 +28,7 @@ class StreamWriter {
   void unit(const std::string& name);
   void phase(const std::string& name, std::size_t done, std::size_t total);
   void warning(const std::string& text);
+  void note(const std::string& text);
   void body(const Body& body);
   void failure(Failure kind, const std::string& text);
   void end();

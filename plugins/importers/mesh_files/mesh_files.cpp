@@ -9,6 +9,7 @@
 #include "input_limits.h"
 #include "read_in_child.h"
 #include "readers.h"
+#include "text_scan.h"
 
 namespace dismantle::mesh_files {
 namespace {
@@ -16,9 +17,7 @@ namespace {
 std::string ending(const std::filesystem::path& file) {
   std::string e = file.extension().string();
   if (!e.empty()) e.erase(0, 1);
-  for (char& c : e)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return e;
+  return lower_case(e);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // damaged files.)
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -88,7 +89,12 @@ class PlyReader {
       for (const auto v : t)
         if (v >= part.mesh.vertices.size())
           fail(fmt::format("a face names vertex {}, there are {}, counted from 0", v, part.mesh.vertices.size()));
-    if (part.mesh.triangles.empty()) fail("only points, no faces");
+    where_.clear();
+    if (part.mesh.triangles.empty())
+      fail(std::ranges::any_of(
+               elements_, [](const Element& e) { return e.count > 0 && (e.name == "face" || e.name == "tristrips"); })
+               ? "its faces have no list 'vertex_indices' with three corners"
+               : "only points, no faces");
     std::vector<RawPart> parts;
     parts.push_back(std::move(part));
     return parts;
@@ -102,12 +108,16 @@ class PlyReader {
   std::string header_line() {
     std::string line;
     char c;
-    while (in_.get(c) && c != '\n') {
+    while (in_.get(c) && c != '\n' && (c != '\r' || line_end_ == '\n')) {
       line += c;
       if (line.size() > 4096) fail("this is no PLY header");
     }
     if (!in_) fail("the header is cut off");
-    ++header_lines_;
+    // The first line shows how lines end. In a binary file, LF after a CR may be the first byte of the data.
+    if (++header_lines_ == 1) {
+      line_end_ = c == '\r' && in_.peek() != '\n' ? '\r' : '\n';
+      if (c != line_end_) in_.get(c);
+    }
     where_ = fmt::format("line {}", header_lines_);
     return std::string(trimmed(line));
   }
@@ -196,7 +206,8 @@ class PlyReader {
   }
 
   void row(const Element& element, Mesh& mesh) {
-    const bool vertex = element.name == "vertex", face = element.name == "face";
+    const bool vertex = element.name == "vertex", strips = element.name == "tristrips";
+    const bool face = element.name == "face" || strips;
     Eigen::Vector3d p = Eigen::Vector3d::Constant(std::nan(""));
     for (const auto& property : element.properties) {
       if (!property.count) {
@@ -206,19 +217,38 @@ class PlyReader {
         continue;
       }
       const double n = value(*property.count);
-      if (!(n >= 0 && n <= 1e6)) fail("a list of impossible length");
+      const double most = strips ? 4294967295.0 : 1e6;  // one strip may be the whole surface
+      if (!(n >= 0 && n <= most)) fail("a list of impossible length");
       corners_.clear();
       for (double k = 0; k < n; ++k) {
         const double v = value(property.type);
         if (!face) continue;
+        if (strips && (v == -1 || v == 4294967295.0)) {  // a new strip begins
+          corners_.push_back(kNewStrip);
+          continue;
+        }
         if (!(v >= 0 && v < 4294967295.0 && v == std::floor(v))) fail("no vertex has this number");
         corners_.push_back(static_cast<std::uint32_t>(v));
       }
-      if (face && (property.name == "vertex_indices" || property.name == "vertex_index")) add_face(mesh);
+      const bool corners = property.name == "vertex_indices" || property.name == "vertex_index";
+      if (corners && strips) add_strips(mesh);
+      if (corners && face && !strips) add_face(mesh);
     }
     if (!vertex) return;
     if (!p.allFinite()) fail("its coordinates are missing or not finite");
     mesh.vertices.push_back(p);
+  }
+
+  /// Every second triangle of a strip is turned around; triangles without area only lead on.
+  void add_strips(Mesh& mesh) const {
+    for (std::size_t i = 0, begin = 0; i < corners_.size(); ++i) {
+      if (corners_[i] == kNewStrip) begin = i + 1;
+      if (i < begin + 2) continue;
+      Triangle t{corners_[i - 2], corners_[i - 1], corners_[i]};
+      if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+      if ((i - begin) % 2 == 1) std::swap(t[0], t[1]);
+      mesh.triangles.push_back(t);
+    }
   }
 
   void add_face(Mesh& mesh) {
@@ -239,7 +269,9 @@ class PlyReader {
   std::filesystem::path file_;
   RunContext context_;
   std::ifstream in_;
+  static constexpr std::uint32_t kNewStrip = 0xffffffffu;
   Format format_ = Format::text;
+  char line_end_ = '\0';  // of the header; not known before its first line
   std::vector<Element> elements_;
   std::size_t header_lines_ = 0;
   std::string where_, word_;

@@ -1,6 +1,7 @@
 // STL, text and binary. Vertices are not shared in the file; preparation welds them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <system_error>
@@ -20,6 +21,7 @@ struct BinaryHeader {
   std::uint64_t size = 0;       ///< of the file
   std::uint32_t triangles = 0;  ///< as stated
   bool says_solid = false;      ///< starts like a text file (many binary files also do)
+  bool printable = false;       ///< nothing but text at its beginning
   bool fits() const { return size >= kHeader && size == kHeader + kRecord * std::uint64_t{triangles}; }
 };
 
@@ -34,11 +36,15 @@ std::optional<BinaryHeader> header_of(const std::filesystem::path& file) {
   header.size = std::filesystem::file_size(file, ec);
   std::ifstream in(file, std::ios::binary);
   if (ec || !in) return std::nullopt;
-  char bytes[kHeader] = {};
-  in.read(bytes, kHeader);
+  char bytes[1024] = {};  // of text, blank lines may stand before the first word
+  in.read(bytes, sizeof bytes);
   std::string_view start(bytes, static_cast<std::size_t>(in.gcount()));
+  header.printable = std::ranges::all_of(start, [](unsigned char c) {
+    return c >= 0x20 ? c != 0x7F : std::string_view("\t\n\v\f\r").find(static_cast<char>(c)) != std::string_view::npos;
+  });
   if (start.starts_with("\xEF\xBB\xBF")) start.remove_prefix(3);
-  header.says_solid = trimmed(start).starts_with("solid");
+  start.remove_prefix(std::min(start.find_first_not_of(" \t\n\v\f\r"), start.size()));
+  header.says_solid = lower_case(start.substr(0, 5)) == "solid";
   header.triangles = little_endian(reinterpret_cast<const unsigned char*>(bytes) + 80);
   return header;
 }
@@ -50,6 +56,8 @@ std::vector<RawPart> read_binary(const std::filesystem::path& file, const Binary
   const std::string name = file.string();
   if (header.size < kHeader)
     throw InputError(name, fmt::format("{} bytes are too short for an STL file: it is cut off or no STL", header.size));
+  if (header.printable && !header.fits())
+    throw InputError(name, "this is no STL file: text that does not begin with 'solid'");
   const std::uint64_t expected = kHeader + kRecord * std::uint64_t{header.triangles};
   if (header.size < expected)
     throw InputError(name, fmt::format("cut off: its header states {} triangles, which take {} bytes, but it has {}",
@@ -84,6 +92,13 @@ std::vector<RawPart> read_binary(const std::filesystem::path& file, const Binary
   return parts;
 }
 
+/// The keyword of a line, in lower case, and its rest; "end loop" is the same as "endloop".
+std::string take_keyword(std::string_view& line) {
+  std::string keyword = lower_case(take_word(line));
+  if (keyword == "end") keyword += lower_case(take_word(line));
+  return keyword;
+}
+
 std::vector<RawPart> read_text(const std::filesystem::path& file, const RunContext& context) {
   LineReader lines(file, context);
   std::vector<RawPart> parts;
@@ -91,7 +106,7 @@ std::vector<RawPart> read_text(const std::filesystem::path& file, const RunConte
   std::size_t corners = 0;
   std::string_view line;
   while (lines.next(line)) {
-    const std::string_view keyword = take_word(line);
+    const std::string keyword = take_keyword(line);
     if (keyword == "vertex") {
       if (!in_facet) lines.fail("'vertex' outside of a facet");
       if (++corners > 3) lines.fail("a facet with more than three vertices");
@@ -143,7 +158,7 @@ std::optional<std::uint64_t> count_stl_triangles(const std::filesystem::path& fi
     LineReader lines(file);
     std::uint64_t triangles = 0;
     std::string_view rest;
-    while (lines.next(rest)) triangles += take_word(rest) == "endfacet";
+    while (lines.next(rest)) triangles += take_keyword(rest) == "endfacet";
     return triangles;
   } catch (const InputError&) {
     return std::nullopt;  // read_stl() reports the error

@@ -40,6 +40,10 @@ bool LineReader::fill() {
   if (in_.bad()) fail("the file cannot be read further");
   at_ = 0;
   end_ = static_cast<std::size_t>(in_.gcount());
+  if (line_end_ == '\0') {
+    const std::string_view block(block_.data(), end_);
+    line_end_ = block.find('\n') == block.npos && block.find('\r') != block.npos ? '\r' : '\n';
+  }
   return end_ > 0;
 }
 
@@ -51,7 +55,7 @@ bool LineReader::next(std::string_view& line) {
       break;
     }
     const char* begin = block_.data() + at_;
-    const auto* stop = static_cast<const char*>(std::memchr(begin, '\n', end_ - at_));
+    const auto* stop = static_cast<const char*>(std::memchr(begin, line_end_, end_ - at_));
     ended = stop != nullptr;
     const std::size_t size = ended ? static_cast<std::size_t>(stop - begin) : end_ - at_;
     buffer_.append(begin, size);
@@ -87,6 +91,13 @@ std::string_view trimmed(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
   return text;
+}
+
+std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
 }
 
 std::optional<double> to_double(std::string_view word) {

@@ -13,7 +13,7 @@
 
 namespace dismantle::mesh_files {
 
-/// Lines of a text file without line ends (LF, CRLF). Refuses binary data and overlong lines before they use memory.
+/// Lines of a text file without line ends: LF, CRLF, or CR in a file whose first block has no LF. Refuses binary data and overlong lines before they use memory.
 class LineReader {
  public:
   /// @throws InputError when the file cannot be opened.
@@ -33,6 +33,7 @@ class LineReader {
   std::ifstream in_;
   std::vector<char> block_;
   std::size_t at_ = 0, end_ = 0;  // range of the block that is not read yet
+  char line_end_ = '\0';          // not known before the first block
   std::string buffer_;
   std::size_t number_ = 0;
 };
@@ -40,6 +41,8 @@ class LineReader {
 /// Removes and returns the next word (no blanks) of `rest`; empty at the end.
 std::string_view take_word(std::string_view& rest);
 std::string_view trimmed(std::string_view text);
+/// ASCII letters in lower case.
+std::string lower_case(std::string_view text);
 
 /// The whole word as a number. Accepts a leading '+', infinity and NaN.
 std::optional<double> to_double(std::string_view word);

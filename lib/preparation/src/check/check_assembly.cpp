@@ -19,8 +19,25 @@ namespace {
 /// Parts closer than this share of the assembly's longest edge count as touching.
 constexpr double kTouching = 0.01;
 
+void add_input_findings(const PrepareReport& report, AssemblyCheck& check) {
+  for (const std::string& text : report.whole)
+    check.findings.push_back({FindingKind::input, Severity::warning, {}, text, {}, {}, {}});
+  for (const std::string& text : report.notes)
+    check.findings.push_back({FindingKind::input, Severity::note, {}, text, {}, {}, {}});
+}
+
 void add_part_findings(const PrepareReport& report, AssemblyCheck& check) {
   for (const PartReport& part : report.parts) {
+    if (part.by_meaning) {
+      check.findings.push_back({FindingKind::input,
+                                Severity::note,
+                                {part.name},
+                                fmt::format("'{}' is left out: {}", part.name, part.reason),
+                                {},
+                                {},
+                                {}});
+      continue;
+    }
     ++check.parts;
     if (part.kept) ++check.usable;
     if (!part.kept && part.reason.starts_with("duplicate")) {
@@ -36,12 +53,13 @@ void add_part_findings(const PrepareReport& report, AssemblyCheck& check) {
                                 Severity::error,
                                 {part.name},
                                 fmt::format("'{}' cannot be used: {}", part.name, part.reason),
-                                "export it again as a closed solid; without it the plan ignores this part",
+                                "mend it, or name it in constraints.ignore; the plan is made without it",
                                 {},
                                 {}});
     }
     std::string done;
-    for (const std::string& action : part.actions) {
+    std::vector<std::string> details;
+    for (const std::string& action : part.summary) {
       if (action.starts_with("warning: "))
         check.findings.push_back({FindingKind::suspect,
                                   Severity::warning,
@@ -50,17 +68,20 @@ void add_part_findings(const PrepareReport& report, AssemblyCheck& check) {
                                   "repair the mesh in the program that made it",
                                   {},
                                   {}});
-      else if (!action.starts_with("subdivided"))
+      else
         done += (done.empty() ? "" : "; ") + action;
     }
-    if (part.kept && !done.empty())
-      check.findings.push_back({FindingKind::repaired,
-                                Severity::note,
-                                {part.name},
-                                fmt::format("'{}' was repaired: {}", part.name, done),
-                                "nothing, if the part still looks right (dismantle prepare writes it)",
-                                {},
-                                {}});
+    for (const std::string& action : part.actions)
+      if (!action.starts_with("warning: ") && !action.starts_with("subdivided")) details.push_back(action);
+    if (!part.kept || done.empty()) continue;
+    check.findings.push_back({FindingKind::repaired,
+                              Severity::note,
+                              {part.name},
+                              fmt::format("'{}' was repaired: {}", part.name, done),
+                              "nothing, if the part still looks right (dismantle prepare writes it)",
+                              {},
+                              {}});
+    check.findings.back().details = std::move(details);
   }
 }
 
@@ -278,8 +299,15 @@ std::size_t AssemblyCheck::count(Severity severity) const {
       std::ranges::count_if(findings, [severity](const Finding& f) { return f.severity == severity; }));
 }
 
+bool AssemblyCheck::sound() const {
+  return std::ranges::all_of(findings, [](const Finding& f) {
+    return f.severity == Severity::note || (f.severity == Severity::warning && f.kind == FindingKind::input);
+  });
+}
+
 AssemblyCheck check_parts(const PrepareReport& report) {
   AssemblyCheck check;
+  add_input_findings(report, check);
   add_part_findings(report, check);
   sort_findings(check);
   return check;
@@ -288,6 +316,7 @@ AssemblyCheck check_parts(const PrepareReport& report) {
 AssemblyCheck check_assembly(const Assembly& assembly, const PrepareReport& report, double tolerance,
                              const RunContext& context) {
   AssemblyCheck check;
+  add_input_findings(report, check);
   add_part_findings(report, check);
   add_flexible_findings(report, assembly.normalization.scale, check);
   Geometry(assembly, tolerance, context).add_findings(check);

@@ -26,6 +26,8 @@ std::string_view to_string(FindingKind kind) {
       return "isolated";
     case FindingKind::flexible:
       return "flexible";
+    case FindingKind::input:
+      return "input";
   }
   return "unknown";
 }
@@ -65,7 +67,7 @@ static nlohmann::ordered_json contact_json(const CheckedContact& c) {
   return item;
 }
 
-std::string findings_text(const AssemblyCheck& check, const std::string& source) {
+std::string findings_text(const AssemblyCheck& check, const std::string& source, bool verbose) {
   std::string out =
       fmt::format("{}: {} part{}, {} usable\n", source, check.parts, check.parts == 1 ? "" : "s", check.usable);
   out += contacts_text(check);
@@ -73,7 +75,10 @@ std::string findings_text(const AssemblyCheck& check, const std::string& source)
     out += fmt::format("{}: {}", to_string(f.severity), f.message);
     if (f.at) out += fmt::format(", at ({:.6g}, {:.6g}, {:.6g})", f.at->x(), f.at->y(), f.at->z());
     if (!f.picture.empty()) out += fmt::format(", picture {}", f.picture);
-    out += fmt::format("\n    next: {}\n", f.advice);
+    out += '\n';
+    if (verbose)
+      for (const std::string& detail : f.details) out += fmt::format("    {}\n", detail);
+    if (!f.advice.empty()) out += fmt::format("    next: {}\n", f.advice);
   }
   const auto errors = check.count(Severity::error), warnings = check.count(Severity::warning);
   if (errors + warnings == 0) return out + "No problem was found.\n";
@@ -97,6 +102,7 @@ std::string findings_json(const AssemblyCheck& check) {
     if (f.depth) item["depth"] = *f.depth;
     if (f.at) item["at"] = {f.at->x(), f.at->y(), f.at->z()};
     if (!f.picture.empty()) item["picture"] = f.picture;
+    if (!f.details.empty()) item["details"] = f.details;
     json["findings"].push_back(std::move(item));
   }
   json["contacts"] = nlohmann::ordered_json::array();

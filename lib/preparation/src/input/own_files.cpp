@@ -26,4 +26,11 @@ bool is_own_animation(const std::filesystem::path& file) {
   return generator.is_string() && generator.get<std::string>().starts_with("dismantle ") && json.contains("scenes");
 }
 
+bool is_own_output(const std::filesystem::path& folder) {
+  std::ifstream in(folder / "prepare.json", std::ios::binary);
+  std::string begin(200, '\0');  // write_prepared() writes the format first
+  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin.find("\"dismantle.prepare\"") != std::string::npos;
+}
+
 }  // namespace dismantle

@@ -3,39 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
+#include <iterator>
 #include <map>
-#include <nlohmann/json.hpp>
-#include <set>
+#include <mutex>
 #include <system_error>
 
 #include "dismantle/errors.h"
 #include "dismantle/preparation/sha256.h"
-#include "dismantle/referenced_file.h"
-#include "input/own_files.h"
+#include "input/folder.h"
 
 namespace dismantle {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Extensions of files that often lie beside meshes and hold no geometry; skipped silently.
-const std::set<std::string>& companions() {
-  static const std::set<std::string> set = {
-      "",    "txt",  "md",  "json", "yaml", "yml",  "csv",  "xml",  "html", "pdf",  "log",  "mtl", "png",
-      "jpg", "jpeg", "gif", "bmp",  "tga",  "tif",  "tiff", "webp", "svg",  "hdr",  "ktx2", "bin", "py",
-      "sh",  "zip",  "gz",  "bak",  "ini",  "toml", "rst",  "dot",  "urdf", "dae~", "obj~", "stl~"};
-  return set;
-}
-
-std::string lower_extension(const fs::path& file) {
-  std::string e = file.extension().string();
-  if (!e.empty()) e.erase(0, 1);
-  for (char& c : e)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return e;
-}
 
 using Readers = std::map<std::string, std::shared_ptr<Importer>>;
 
@@ -51,75 +31,6 @@ std::string readable(const Readers& readers) {
   std::string list;
   for (const auto& [extension, importer] : readers) list += (list.empty() ? "." : ", .") + extension;
   return "can be read: " + list;
-}
-
-/// Files of `folder` that are meshes, in natural order; says in `warnings` what else looks like geometry.
-std::vector<fs::path> meshes_in(const fs::path& folder, const Readers& readers, std::vector<std::string>& warnings) {
-  std::error_code ec;
-  std::vector<fs::path> entries;
-  fs::directory_iterator it(folder, ec);
-  for (; !ec && it != fs::directory_iterator(); it.increment(ec)) entries.push_back(it->path());
-  if (ec) throw InputError(folder.string(), fmt::format("folder cannot be read: {}", ec.message()));
-  std::sort(entries.begin(), entries.end(), [](const fs::path& a, const fs::path& b) {
-    return natural_less(a.filename().native(), b.filename().native());
-  });
-  std::vector<fs::path> meshes;
-  std::vector<std::string> folders;
-  for (const auto& path : entries) {
-    const std::string name = path.filename().string();
-    if (name.empty() || name[0] == '.') continue;
-    const auto status = fs::status(path, ec);
-    const std::string extension = lower_extension(path);
-    if (fs::is_directory(status)) {
-      folders.push_back(valid_utf8(name));
-    } else if (readers.count(extension)) {
-      // Broken links are kept, so that reading them reports the problem. Pipes and devices would hang.
-      if (fs::is_other(status))
-        warnings.push_back(fmt::format("'{}' is no regular file: left aside", valid_utf8(name)));
-      else if (extension == "glb" && is_own_animation(path))
-        warnings.push_back(fmt::format("'{}' is the animation of a plan and no part: left aside", valid_utf8(name)));
-      else
-        meshes.push_back(path);
-    } else if (!companions().count(extension)) {
-      warnings.push_back(
-          fmt::format("'{}' left aside: no importer reads '.{}' ({})", valid_utf8(name), extension, readable(readers)));
-    }
-  }
-  if (!folders.empty())
-    warnings.push_back(
-        fmt::format("sub-folders are not read: {} of them, the first is '{}'", folders.size(), folders.front()));
-  if (meshes.empty())
-    throw InputError(folder.string(), fmt::format("no mesh file in this folder ({}){}", readable(readers),
-                                                  folders.empty() ? "" : "; sub-folders are not read"));
-  return meshes;
-}
-
-/// Files next to a glTF text file that hold its geometry.
-std::vector<fs::path> buffers_of_gltf(const fs::path& file) {
-  std::vector<fs::path> buffers;
-  std::FILE* in = std::fopen(file.c_str(), "rb");
-  if (!in) return buffers;  // reading the file itself reports that
-  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
-  std::fclose(in);
-  if (!json.is_object() || !json.contains("buffers") || !json["buffers"].is_array()) return buffers;
-  for (const auto& buffer : json["buffers"]) {
-    if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;
-    const auto uri = buffer["uri"].get<std::string>();
-    if (uri.rfind("data:", 0) == 0) continue;
-    std::string name;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-      unsigned code = 0;
-      if (uri[i] == '%' && i + 2 < uri.size() && std::sscanf(uri.c_str() + i + 1, "%2x", &code) == 1) {
-        name += static_cast<char>(code);
-        i += 2;
-      } else {
-        name += uri[i];
-      }
-    }
-    const fs::path path = file.parent_path() / name;
-    if (may_read_referenced(path, file)) buffers.push_back(path);
-  }
-  return buffers;
 }
 
 std::string too_many(std::uint64_t count, const std::string& where, std::int64_t limit) {
@@ -153,15 +64,15 @@ class Reader {
         throw TooLarge(file.string(), too_many(*count, "", options_.max_triangles));
     }
     hash_.add_file(file);
-    if (lower_extension(file) == "gltf")
-      for (const auto& buffer : buffers_of_gltf(file)) hash_.add_file(buffer);
-    std::vector<RawPart> parts = importer.read(file, context_);
+    for (const auto& other : importer.referenced_files(file)) hash_.add_file(other);
+    std::vector<RawPart> parts = importer.read(file, listening());
     stop_if_told(file);
     if (parts.empty()) throw InputError(file.string(), "the file holds no mesh");
     for (auto& part : parts) {
       total_ += part.mesh.triangles.size();
       part.name = valid_utf8(part.name);
       part.file = valid_utf8(file.filename().string());
+      part.problem = valid_utf8(part.problem);
       for (auto& parent : part.parents) parent = valid_utf8(parent);
     }
     return parts;
@@ -186,7 +97,12 @@ class Reader {
   }
 
   void add_folder(const fs::path& folder, const Readers& readers) {
-    const auto files = meshes_in(folder, readers, out_.warnings);
+    FolderContents contents = contents_of(
+        folder, [&](const std::string& extension) { return readers.contains(extension); }, readable(readers));
+    const auto& files = contents.meshes;
+    if (files.empty())
+      throw InputError(folder.string(), fmt::format("no mesh file in this folder ({}){}", readable(readers),
+                                                    contents.sub_folders ? "; sub-folders are not read" : ""));
     std::map<std::string, int> stems;
     for (const auto& file : files) ++stems[valid_utf8(file.stem().string())];
     std::size_t done = 0;
@@ -200,8 +116,12 @@ class Reader {
             fmt::format("several files are called '{}': this one is part '{}'", whole.name, whole.file));
         whole.name = whole.file;
       }
+      for (RawPart& part : left_) part.name = fmt::format("{}/{}", whole.name, part.name.empty() ? "part" : part.name);
       out_.parts.push_back(std::move(whole));
+      std::ranges::move(left_, std::back_inserter(out_.parts));
+      left_.clear();
     }
+    for (RawPart& part : contents.rest) out_.parts.push_back(std::move(part));
     context_.progress("read", done, files.size());
   }
 
@@ -230,16 +150,25 @@ class Reader {
       throw TooLarge(file.string(), too_many(total_, " up to this file", options_.max_triangles));
   }
 
-  /// All bodies of a file as one part; those that cannot be used are named in a warning, unless there are no others.
+  /// The context for an importer: its warnings and notes are findings about the input.
+  RunContext listening() {
+    RunContext context = context_;
+    context.on_log = [this](LogLevel level, std::string_view text) {
+      if (level != LogLevel::warning && level != LogLevel::info) return context_.log(level, text);
+      const std::lock_guard lock(mutex_);
+      (level == LogLevel::warning ? out_.warnings : out_.notes).push_back(valid_utf8(text));
+    };
+    return context;
+  }
+
+  /// All bodies of a file as one part; those that cannot be used go to `left_`, unless there are no others.
   RawPart joined(std::vector<RawPart> parts, const fs::path& file) {
     RawPart whole;
-    whole.file = parts.front().file;
+    whole.file = valid_utf8(file.filename().string());
     bool first = true;
     for (auto& part : parts) {
       if (!part.problem.empty()) {
-        if (whole.problem.empty()) whole.problem = part.problem;
-        out_.warnings.push_back(
-            fmt::format("'{}' of {} is left aside: {}", part.name, valid_utf8(file.filename().string()), part.problem));
+        left_.push_back(std::move(part));
         continue;
       }
       if (first) {
@@ -252,7 +181,13 @@ class Reader {
       if (whole.colour != part.colour) whole.colour.reset();  // there is no one colour for all
       append(whole.mesh, part.mesh);
     }
-    if (!first) whole.problem.clear();
+    if (!first) return whole;
+    // The file is the part that is missing.
+    auto reason = std::ranges::find_if(left_, [](const RawPart& part) { return !part.by_meaning; });
+    if (reason == left_.end()) reason = left_.begin();
+    whole.problem = reason->problem;
+    whole.by_meaning = reason->by_meaning;
+    left_.erase(reason);
     return whole;
   }
 
@@ -267,6 +202,8 @@ class Reader {
   InputParts& out_;
   Sha256 hash_;
   std::uint64_t total_ = 0;
+  std::mutex mutex_;  // importers may warn from several threads
+  std::vector<RawPart> left_;
 };
 
 }  // namespace
@@ -290,6 +227,12 @@ InputParts read_input(const fs::path& input, const std::vector<std::shared_ptr<I
   make_names_unique(out.parts, out.warnings);
   out.sha256 = reader.fingerprint();
   return out;
+}
+
+void add_findings(const InputParts& input, PrepareReport& report) {
+  report.warnings.insert(report.warnings.begin(), input.warnings.begin(), input.warnings.end());
+  report.whole.insert(report.whole.begin(), input.warnings.begin(), input.warnings.end());
+  report.notes.insert(report.notes.begin(), input.notes.begin(), input.notes.end());
 }
 
 }  // namespace dismantle

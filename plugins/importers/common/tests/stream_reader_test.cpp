@@ -35,6 +35,7 @@ Body random_body(Rng& rng, std::size_t index) {
     body.colour = {std::uint8_t(rng.below(256)), std::uint8_t(rng.below(256)), 3, std::uint8_t(rng.below(256))};
   if (rng.below(5) == 0) {
     body.problem = "it is a surface";
+    body.by_meaning = rng.below(2) == 0;
     return body;
   }
   const std::size_t vertices = 4 + rng.below(rng.below(8) == 0 ? 60000 : 20);
@@ -54,6 +55,7 @@ std::string random_stream(Rng& rng, std::vector<Body>& bodies) {
       writer.body(body);
     }
     writer.warning("a curve is left aside");
+    writer.note("names are in Latin-1");
     writer.end();
   });
 }
@@ -78,13 +80,15 @@ TEST(StepStream, WhatIsWrittenIsReadBitForBitHoweverItIsCut) {
     ASSERT_TRUE(feed(reader, stream, rng)) << reader.problem();
     EXPECT_TRUE(reader.complete());
     EXPECT_EQ(phases, bodies.size());
-    EXPECT_EQ(reader.warnings().size(), 1u);
+    EXPECT_EQ(reader.warnings(), std::vector<std::string>{"a curve is left aside"});
+    EXPECT_EQ(reader.notes(), std::vector<std::string>{"names are in Latin-1"});
     const auto parts = reader.take_parts();
     ASSERT_EQ(parts.size(), bodies.size());
     for (std::size_t i = 0; i < parts.size(); ++i) {
       EXPECT_EQ(parts[i].name, bodies[i].name);
       EXPECT_EQ(parts[i].parents, bodies[i].parents);
       EXPECT_EQ(parts[i].problem, bodies[i].problem);
+      EXPECT_EQ(parts[i].by_meaning, bodies[i].by_meaning);
       EXPECT_EQ(parts[i].unit, "inch");
       ASSERT_EQ(parts[i].colour.has_value(), bodies[i].colour.has_value());
       if (parts[i].colour) {

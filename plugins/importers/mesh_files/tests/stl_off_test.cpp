@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cstring>
+
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/run_context.h"
 #include "mesh_files.h"
@@ -24,6 +27,32 @@ TEST(StlReader, ReadsTextAndBinary) {
   ASSERT_EQ(text.size(), 2u);
   EXPECT_EQ(text[0].name, "a b");
   EXPECT_DOUBLE_EQ(signed_volume(text[1].mesh), 6);
+}
+
+TEST(StlReader, TextIsReadHoweverItIsSpelled) {
+  const TempFolder folder;
+  const std::string text = testing::text_stl(kBox, "a B");
+  const auto replaced = [](std::string in, const std::string& from, const std::string& to) {
+    for (std::size_t at = in.find(from); at != std::string::npos; at = in.find(from, at + to.size()))
+      in.replace(at, from.size(), to);
+    return in;
+  };
+  std::string upper = text;
+  for (char& c : upper)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  for (const std::string& form :
+       {upper, "\n\n  \r\n" + text, "\xEF\xBB\xBF\n" + text, replaced(text, "solid", "Solid"),
+        replaced(replaced(text, "endloop", "end loop"), "endfacet", "end facet"), replaced(text, "\n", "\r"),
+        replaced(text, "\n", "\r\n"), replaced(text, "facet normal", "\tFacet  Normal")}) {
+    const auto file = folder.write("a.stl", form);
+    std::vector<RawPart> parts;
+    EXPECT_EQ(input_error([&] { parts = read_stl(file); }), "") << form.substr(0, 60);
+    ASSERT_EQ(parts.size(), 1u);
+    EXPECT_DOUBLE_EQ(signed_volume(parts[0].mesh), 6);
+    EXPECT_EQ(count_stl_triangles(file), 12u);
+  }
+  const auto other = folder.write("other.stl", "This is a letter.\n" + std::string(200, 'x'));
+  EXPECT_NE(input_error([&] { read_stl(other); }).find("text that does not begin with 'solid'"), std::string::npos);
 }
 
 TEST(StlReader, BinaryFilesMayStartWithSolid) {
@@ -59,6 +88,61 @@ TEST(StlReader, RefusesCoordinatesThatAreNotFinite) {
   EXPECT_NE(input_error([&] { read_stl(binary); }).find("coordinate is not finite"), std::string::npos);
   const auto text = folder.write("t.stl", testing::text_stl(bad, "x"));
   EXPECT_NE(input_error([&] { read_stl(text); }).find("line "), std::string::npos);
+}
+
+/// A box as strips of one list, text or little-endian; `line_end` ends the lines of the header.
+std::string ply_strips(const std::string& corners_type, bool binary, const std::string& line_end) {
+  std::string out, data;
+  for (const std::string& line :
+       {std::string("ply"), std::string(binary ? "format binary_little_endian 1.0" : "format ascii 1.0"),
+        std::string("element vertex 8"), std::string("property double x"), std::string("property double y"),
+        std::string("property double z"), std::string("element tristrips 1"),
+        "property list int " + corners_type + " vertex_indices", std::string("end_header")})
+    out += line + line_end;
+  const auto put = [&](auto value) {
+    char bytes[sizeof value];
+    std::memcpy(bytes, &value, sizeof value);
+    if (binary)
+      data.append(bytes, sizeof value);
+    else
+      data += std::to_string(value) + " ";
+  };
+  for (int i = 0; i < 8; ++i) {
+    // In a binary file the first byte of the data is a line feed.
+    put(i % 2 ? 1.0 : binary ? std::bit_cast<double>(std::uint64_t{10}) : 0.0);
+    put(i / 2 % 2 ? 2.0 : 0.0);
+    put(i / 4 ? 3.0 : 0.0);
+  }
+  // Around the box then its two ends; triangles without area lead on.
+  const std::vector<int> strips = {0, 1, 4, 5, 6, 7, 2, 3, 0, 1, -1, 0, 0, 0, 4, 2, 6, -1, 1, 3, 5, 7};
+  put(static_cast<std::int32_t>(strips.size()));
+  for (const int i : strips)
+    if (corners_type == "uint")
+      put(static_cast<std::uint32_t>(i));
+    else
+      put(static_cast<std::int32_t>(i));
+  return out + data;
+}
+
+TEST(PlyReader, TriangleStripsAndLineEndsOfOldMacs) {
+  const TempFolder folder;
+  for (const bool binary : {false, true})
+    for (const std::string type : {"int", "uint"})
+      for (const std::string line_end : {"\n", "\r\n", "\r"}) {
+        const auto parts = read_ply(folder.write("a.ply", ply_strips(type, binary, line_end)));
+        ASSERT_EQ(parts.size(), 1u);
+        EXPECT_EQ(parts[0].mesh.triangles.size(), 12u);
+        EXPECT_DOUBLE_EQ(signed_volume(parts[0].mesh), 6) << binary << type << line_end.size();
+      }
+}
+
+TEST(PlyReader, SaysWhyThereAreNoTriangles) {
+  const TempFolder folder;
+  const auto file = folder.write(
+      "a.ply",
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar int corners\nend_header\n0 0 0\n3 0 0 0\n");
+  EXPECT_NE(input_error([&] { read_ply(file); }).find("no list 'vertex_indices'"), std::string::npos);
 }
 
 TEST(OffReader, ReadsPolygonsAndKeepsDoubles) {

@@ -24,6 +24,7 @@ enum class FindingKind {
   enclosed,   ///< a part lies inside the solid material of another
   isolated,   ///< it touches no other part
   flexible,   ///< a part counts as flexible, declared or by its shape
+  input,      ///< about the files, or the assembly as a whole: what `dismantle plan` says, too
 };
 
 /// How bad a finding is.
@@ -37,13 +38,14 @@ enum class Severity {
 struct Finding {
   FindingKind kind = FindingKind::unusable;
   Severity severity = Severity::error;
-  std::vector<std::string> parts;     ///< one or two names
-  std::string message;                ///< what is wrong, one sentence
-  std::string advice;                 ///< what to do next
-  std::optional<double> depth;        ///< overlap, input units
-  std::optional<Eigen::Vector3d> at;  ///< where, input coordinates
-  std::string picture{};              ///< file that shows the place; empty: none
+  std::vector<std::string> parts;         ///< one or two names
+  std::string message;                    ///< what is wrong, one sentence
+  std::string advice;                     ///< what to do next
+  std::optional<double> depth;            ///< overlap, input units
+  std::optional<Eigen::Vector3d> at;      ///< where, input coordinates
+  std::string picture{};                  ///< file that shows the place; empty: none
   std::optional<ContactClass> contact{};  ///< of two parts that overlap
+  std::vector<std::string> details{};     ///< each action that `message` sums up
 };
 
 /// How two parts meet when assembled.
@@ -60,6 +62,8 @@ struct AssemblyCheck {
   std::size_t usable = 0;
   std::vector<CheckedContact> contacts;  ///< pairs nearer than 1 % of the assembly's size, in the order of its parts
   std::size_t count(Severity severity) const;
+  /// Whether nothing has to be mended: no error, and no warning but those about the reading of the input.
+  bool sound() const;
 };
 
 /// `report`: of the preparation that made `assembly`. An overlap that is deeper than a hundredth of the assembly's size
@@ -75,11 +79,12 @@ DISMANTLE_API AssemblyCheck check_parts(const PrepareReport& report);
 DISMANTLE_API std::string_view to_string(FindingKind kind);
 /// Name in files and messages.
 DISMANTLE_API std::string_view to_string(Severity severity);
-/// For a terminal; UTF-8, ends with a line break.
-DISMANTLE_API std::string findings_text(const AssemblyCheck& check, const std::string& source);
+/// For a terminal; UTF-8, ends with a line break. `verbose`: with the details of findings.
+DISMANTLE_API std::string findings_text(const AssemblyCheck& check, const std::string& source, bool verbose = false);
 /// One JSON object: {"parts", "usable", "errors", "warnings", "findings": [{"kind", "severity", "parts", "message",
-/// "advice", "class", "depth", "at", "picture"}], "contacts": [{"parts", "class", "depth", "at", "region", "share",
-/// "axis"}]}; the last four keys of a finding and the last five of a contact are left out if they do not apply.
+/// "advice", "class", "depth", "at", "picture", "details"}], "contacts": [{"parts", "class", "depth", "at", "region",
+/// "share", "axis"}]}; the last five keys of a finding and the last five of a contact are left out if they do not
+/// apply.
 DISMANTLE_API std::string findings_json(const AssemblyCheck& check);
 
 }  // namespace dismantle

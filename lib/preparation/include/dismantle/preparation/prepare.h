@@ -21,16 +21,16 @@ enum class FlexibleParts {
 
 /// The `assembly:` section of a configuration. Each step of appendix B.1 is a parameter.
 struct PrepareOptions {
-  double weld = 1e-6;             ///< relative to the part's box diagonal
-  bool repair = true;             ///< orient, close T-junctions and small holes, drop inner walls
-  double max_hole = 0.1;          ///< largest hole that is closed, share of the part's surface area
-  bool drop_duplicates = true;    ///< step 3
-  double max_overlap = 1.0;       ///< step 4: drop parts with more than this share of their volume in others; 1 = never
-  double min_thickness = 0.0;     ///< step 5: drop parts thinner than this share of the assembly; 0 = never
-  bool largest_connected = false; ///< step 6
-  bool normalize = true;          ///< step 7
-  double size = 10.0;             ///< step 7: largest edge of the bounding box, assembly units
-  double subdivide = 0.5;         ///< step 9: longest edge, assembly units; 0 = off
+  double weld = 1e-6;           ///< relative to the part's box diagonal
+  bool repair = true;           ///< orient, close T-junctions and small holes, drop inner walls
+  double max_hole = 0.1;        ///< largest hole that is closed, share of the part's surface area
+  bool drop_duplicates = true;  ///< step 3
+  double max_overlap = 1.0;     ///< step 4: drop parts with more than this share of their volume in others; 1 = never
+  double min_thickness = 0.0;   ///< step 5: drop parts thinner than this share of the assembly; 0 = never
+  bool largest_connected = false;  ///< step 6
+  bool normalize = true;           ///< step 7
+  double size = 10.0;              ///< step 7: largest edge of the bounding box, assembly units
+  double subdivide = 0.5;          ///< step 9: longest edge, assembly units; 0 = off
   FlexibleParts flexible = FlexibleParts::recognised;
   std::int64_t max_triangles = 5'000'000;  ///< refuse larger assemblies with a clear message
   DISMANTLE_API static void describe(Schema<PrepareOptions>& s);
@@ -41,9 +41,11 @@ struct PartReport {
   std::string name;
   std::string file;
   bool kept = true;
-  bool by_choice = false;             ///< excluded by a rule of the configuration; it was usable
-  std::vector<std::string> actions;   ///< plain sentences with figures: "welded 3024 vertices to 506"
-  std::string reason;                 ///< not kept: why
+  bool by_choice = false;            ///< excluded by a rule of the configuration; it was usable
+  bool by_meaning = false;           ///< excluded because its file says that it is no part (RawPart::by_meaning)
+  std::vector<std::string> actions;  ///< plain sentences with figures: "welded 3024 vertices to 506"
+  std::vector<std::string> summary;  ///< the same in short: "closed 24 holes, the largest 46 mm2 at (1, 2, 3)"
+  std::string reason;                ///< not kept: why
   std::size_t vertices = 0, triangles = 0, shells = 0;
   bool watertight = false;
   double volume = 0;  ///< input units cubed
@@ -51,12 +53,15 @@ struct PartReport {
 
 /// What preparation did with the input.
 struct PrepareReport {
-  std::vector<PartReport> parts;           ///< all that came in, in order
-  std::vector<std::string> warnings;       ///< about the assembly as a whole
-  std::vector<FlexiblePart> flexible;      ///< parts that are recognised as flexible
+  std::vector<PartReport> parts;       ///< all that came in, in order
+  std::vector<std::string> warnings;   ///< all, also those that `parts` and the assembly's overlaps tell
+  std::vector<std::string> whole;      ///< those of `warnings` about the assembly as a whole
+  std::vector<std::string> notes;      ///< about the input: nothing is wrong
+  std::vector<FlexiblePart> flexible;  ///< parts that are recognised as flexible
 };
 
 /// Deterministic on any number of threads. `source` and `sha256` are copied into the assembly (see read_input.h).
+/// Parts that are left out by the meaning of their format or by a rule count as excluded by choice.
 /// @throws InputError when fewer than two usable parts are left, naming what was wrong with each.
 /// @throws Error when `context` wants to stop; then see context.cancel and context.deadline.
 DISMANTLE_API Assembly prepare_assembly(std::vector<RawPart> raw, const std::string& source, const std::string& sha256,

@@ -10,6 +10,7 @@
 
 #include "dismantle/export.h"
 #include "dismantle/importer.h"
+#include "dismantle/preparation/prepare.h"
 #include "dismantle/run_context.h"
 
 namespace dismantle {
@@ -22,20 +23,26 @@ struct ReadOptions {
 /// What was read. `parts` are in natural order of file names ("2" before "10"), then file order, with unique names.
 struct InputParts {
   std::vector<RawPart> parts;
-  std::string sha256;                 ///< of the bytes of all files read, in the order of `parts`; lower-case hex
-  std::vector<std::string> warnings;  ///< what was skipped or renamed, and why
+  std::string
+      sha256;  ///< of the bytes of all files read, and of those they refer to, in the order of `parts`; lower-case hex
+  std::vector<std::string> warnings;  ///< of the importers, and what was renamed
+  std::vector<std::string> notes;     ///< of the importers: nothing is wrong
 };
 
-/// Folder: each mesh file is one part, even with several bodies, named like the file without extension. Sub-folders,
-/// other files and animations written by Dismantle are skipped. An unreadable file becomes a part with a `problem`.
-/// Single file: its parts, named as in the file.
-/// Names are made valid UTF-8 and unique ("a.obj" and "a.stl" for two files of one stem, "nut#2" for a second node).
+/// Folder: each mesh file is one part, even with several bodies, named like the file without extension. An
+/// unreadable file becomes a part with a `problem`, and so does what may be input and is not read: sub-folders with
+/// files that could be read, files of unknown formats, bodies of a file beside others that cannot be used. Single file:
+/// its parts, named as in the file. Names are made valid UTF-8 and unique ("a.obj" and "a.stl" for two files of one
+/// stem, "nut#2" for a second node).
 /// @throws InputError naming the input, or the file in it: missing, no importer for its extension, no parts, too large,
 /// or a broken single file.
 /// @throws Error when `context` wants to stop.
 DISMANTLE_API InputParts read_input(const std::filesystem::path& input,
                                     const std::vector<std::shared_ptr<Importer>>& importers,
                                     const ReadOptions& options = {}, const RunContext& context = {});
+
+/// Adds what was found about the files to what preparation found about the parts, for `dismantle check` and reports.
+DISMANTLE_API void add_findings(const InputParts& input, PrepareReport& report);
 
 /// Order for names: runs of digits compare as numbers, all else bytewise; a strict total order.
 DISMANTLE_API bool natural_less(std::string_view a, std::string_view b);
