@@ -6,6 +6,7 @@
 #include "dismantle/path_oracle.h"
 #include "dismantle/sequence_planner.h"
 #include "dismantle/simulator.h"
+#include "dismantle/step_check.h"
 #include "dismantle/transfer_planner.h"
 
 namespace dismantle {
@@ -23,13 +24,20 @@ PathOracle::~PathOracle() = default;
 const Certificate* PathOracle::prove(const SeparationQuestion& /*question*/, const RunContext& /*context*/) {
   return nullptr;
 }
-const Constraints& PathOracle::constraints() const {
-  static const Constraints none;
-  return none;
-}
+ForcingOracle::~ForcingOracle() = default;
 TransferPlanner::~TransferPlanner() = default;
 SequenceObserver::~SequenceObserver() = default;
 SequencePlanner::~SequencePlanner() = default;
+StepCheck::~StepCheck() = default;
+StepVerdict StepCheck::judge_plan(std::span<const StepQuestion> /*operations*/, const RunContext& /*context*/) const {
+  return {};
+}
+
+std::vector<std::vector<PlacedPart>> whole_assembly(const Assembly& assembly) {
+  std::vector<PlacedPart> all;
+  for (const Part& part : assembly.parts) all.push_back({part.id, Pose{}});
+  return {all};
+}
 Importer::~Importer() = default;
 
 }  // namespace dismantle

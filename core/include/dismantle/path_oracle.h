@@ -6,9 +6,11 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <utility>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
+#include "dismantle/disassembly.h"
 #include "dismantle/export.h"
 #include "dismantle/immobility_prover.h"
 #include "dismantle/path_planner.h"
@@ -27,13 +29,20 @@ struct Attempt {
   bool resume = false;
 };
 
-/// The user's constraints on the sequence. Parts by id; the lists are in no particular order.
-struct Constraints {
-  std::vector<PartId> base;                       ///< never moved, except with everything else
-  std::vector<std::vector<PartId>> together;      ///< each of these moves as one and is not taken apart
-  std::vector<std::pair<PartId, PartId>> before;  ///< (a, b): b leaves only after a has left
-  std::optional<PartId> target;                   ///< done as soon as this part is out; with as little work as is known
-  bool empty() const { return base.empty() && together.empty() && before.empty() && !target; }
+/// A removal that was forced: the path, and what is known about it.
+struct ForcedRemoval {
+  Path path;  ///< columns in the order of the moving parts; as it is written to the plan
+  ForcedCut cut;
+};
+
+/// A part that is left, and why.
+struct Unsolved {
+  PartId part = 0;
+  Outcome outcome = Outcome::exhausted;
+  std::vector<PartId> blocked_by;
+  std::vector<Pose> best_pose;
+  std::string message;
+  const Certificate* certificate = nullptr;  ///< of the oracle: proof that it cannot leave
 };
 
 /// An answer, with its question. `path` has passed the verifier.
@@ -48,6 +57,17 @@ struct AttemptResult {
   /// Proof that explains why no path was found, if any; always set for `infeasible`. Lives as long as the oracle.
   const Certificate* certificate = nullptr;
   double proof_seconds = 0;  ///< spent on proofs; not part of `seconds`
+  /// Set by ForcingOracle::propose_forced only; `result` then is no success and has no path.
+  std::shared_ptr<const ForcedRemoval> forced{};
+
+  /// Can the answer be recorded as a removal: is it a success, or forced?
+  bool removes() const { return forced || is_success(result.outcome()); }
+  /// The motion of a removal. @throws std::logic_error when there is none.
+  const Path& path() const {
+    if (forced) return forced->path;
+    if (!result.path()) throw std::logic_error("an answer without a path");
+    return result.path()->poses();
+  }
 };
 
 /// What an oracle has done so far.
@@ -57,6 +77,22 @@ struct OracleCounts {
   std::uint64_t discarded = 0;  ///< computed speculatively, never asked for
   std::uint64_t proposed = 0;   ///< paths that the sequence planner found itself and proposed
   std::uint64_t refused = 0;    ///< proposals that the verifier refused
+};
+
+/// Access for planners that remove parts by force, where no verified path is known. Not thread-safe.
+class DISMANTLE_API ForcingOracle {
+ public:
+  virtual ~ForcingOracle();
+  /// How deep the parts cut in along the path (columns as `moving`), measured on the original triangles. Nothing: no
+  /// pair comes near each other. When `context` asks to stop: the deepest so far, not `proved`.
+  virtual std::optional<MotionDepth> depth(const std::vector<PartId>& moving, const std::vector<PlacedPart>& fixed,
+                                           const Path& path, const MotionDepthOptions& options,
+                                           const RunContext& context) = 0;
+  /// Answers with a removal along this path, whatever it cuts into, and states depth and reason. `known`: the depth, if
+  /// depth() has measured the whole path of this question. The answer may be recorded like a success.
+  virtual const AttemptResult& propose_forced(const Attempt& attempt, const Path& path,
+                                              const std::optional<MotionDepth>& known, std::span<const Unsolved> said,
+                                              RunContext& context) = 0;
 };
 
 /// Memoises, counts and verifies. May compute prefetched attempts on other threads; answers do not depend on it.
@@ -85,8 +121,8 @@ class DISMANTLE_API PathOracle {
   /// Data derived from the parts, shared with provers; null: none is shared. "solids": std::vector<geometry::Solid>;
   /// "hull": std::vector<Eigen::Vector3d>, corners of the convex hull.
   virtual PartMemo* memo() { return nullptr; }
-  /// If there are any, only planners that declare SequencePlanner::keeps_constraints are run.
-  virtual const Constraints& constraints() const;
+  /// Null: the run allows no forced steps (`run.force: off`).
+  virtual ForcingOracle* forcing() { return nullptr; }
 };
 
 }  // namespace dismantle

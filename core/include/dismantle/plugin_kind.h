@@ -1,55 +1,46 @@
 /// The kinds of plugin, and the interface that each of them implements.
 #pragma once
 
+/// The one list of kinds: X(kind, Interface). Enumeration, names, registry, configuration, reference and contract tests
+/// follow from it.
+#define DISMANTLE_PLUGIN_KINDS(X)           \
+  X(simulator, Simulator)                   \
+  X(path_planner, PathPlanner)              \
+  X(sequence_planner, SequencePlanner)      \
+  X(transfer_planner, TransferPlanner)      \
+  X(immobility_prover, ImmobilityProver)    \
+  X(step_check, StepCheck)                  \
+  X(importer, Importer)
+
 namespace dismantle {
 
-class Simulator;
-class PathPlanner;
-class SequencePlanner;
-class TransferPlanner;
-class ImmobilityProver;
-class Importer;
+#define DISMANTLE_DECLARE(kind, Interface) class Interface;
+DISMANTLE_PLUGIN_KINDS(DISMANTLE_DECLARE)
+#undef DISMANTLE_DECLARE
 
 /// The interfaces that plugins implement.
-enum class PluginKind { simulator, path_planner, sequence_planner, transfer_planner, immobility_prover, importer };
+enum class PluginKind {
+#define DISMANTLE_VALUE(kind, Interface) kind,
+  DISMANTLE_PLUGIN_KINDS(DISMANTLE_VALUE)
+#undef DISMANTLE_VALUE
+};
 
 /// All kinds, in the order in which they are shown.
-inline constexpr PluginKind kPluginKinds[] = {PluginKind::simulator, PluginKind::path_planner,
-                                              PluginKind::sequence_planner, PluginKind::transfer_planner,
-                                              PluginKind::immobility_prover, PluginKind::importer};
+inline constexpr PluginKind kPluginKinds[] = {
+#define DISMANTLE_VALUE(kind, Interface) PluginKind::kind,
+    DISMANTLE_PLUGIN_KINDS(DISMANTLE_VALUE)
+#undef DISMANTLE_VALUE
+};
 
 /// `PluginKindOf<PathPlanner>::value` is `PluginKind::path_planner`.
 template <class Interface>
 struct PluginKindOf;
-/// The kind that the interface belongs to.
-template <>
-struct PluginKindOf<Simulator> {
-  static constexpr PluginKind value = PluginKind::simulator;
-};
-/// The kind that the interface belongs to.
-template <>
-struct PluginKindOf<PathPlanner> {
-  static constexpr PluginKind value = PluginKind::path_planner;
-};
-/// The kind that the interface belongs to.
-template <>
-struct PluginKindOf<SequencePlanner> {
-  static constexpr PluginKind value = PluginKind::sequence_planner;
-};
-/// The kind that the interface belongs to.
-template <>
-struct PluginKindOf<TransferPlanner> {
-  static constexpr PluginKind value = PluginKind::transfer_planner;
-};
-/// The kind that the interface belongs to.
-template <>
-struct PluginKindOf<ImmobilityProver> {
-  static constexpr PluginKind value = PluginKind::immobility_prover;
-};
-/// The kind that the interface belongs to.
-template <>
-struct PluginKindOf<Importer> {
-  static constexpr PluginKind value = PluginKind::importer;
-};
+#define DISMANTLE_KIND_OF(kind, Interface)              \
+  template <>                                           \
+  struct PluginKindOf<Interface> {                      \
+    static constexpr PluginKind value = PluginKind::kind; \
+  };
+DISMANTLE_PLUGIN_KINDS(DISMANTLE_KIND_OF)
+#undef DISMANTLE_KIND_OF
 
 }  // namespace dismantle

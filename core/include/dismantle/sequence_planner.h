@@ -2,11 +2,13 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "dismantle/export.h"
 #include "dismantle/path_oracle.h"
+#include "dismantle/step_check.h"
 
 namespace dismantle {
 
@@ -15,16 +17,6 @@ namespace dismantle {
 struct Removal {
   std::vector<PartId> parts;  ///< parts that moved, ascending, as Path columns
   const AttemptResult* attempt = nullptr;
-};
-
-/// A part that is left, and why.
-struct Unsolved {
-  PartId part = 0;
-  Outcome outcome = Outcome::exhausted;
-  std::vector<PartId> blocked_by;
-  std::vector<Pose> best_pose;
-  std::string message;
-  const Certificate* certificate = nullptr;  ///< of the oracle: proof that it cannot leave
 };
 
 /// Result of a sequence planner.
@@ -44,13 +36,36 @@ class DISMANTLE_API SequenceObserver {
   virtual void removed(const Removal& removal, std::size_t parts_left) = 0;
 };
 
+/// What a sequence planner can do; constant for an object.
+struct SequencePlannerTraits {
+  bool keeps_constraints = false;  ///< false: a run with constraints is refused
+  /// True: starts from any SequenceQuery::start. False: only from one group of all parts as assembled; other runs are
+  /// refused.
+  bool any_start = false;
+  bool follows_objective = false;  ///< prefers removals that SequenceQuery::objective likes
+};
+
+/// What is to be taken apart. References outlive the call.
+struct SequenceQuery {
+  const Assembly& assembly;
+  /// Groups to take apart, each in ascending order of parts. A whole assembly is one group; a half-finished plan may
+  /// have several. Parts in none of them are absent.
+  std::vector<std::vector<PlacedPart>> start;
+  const Constraints& constraints;
+  const Objective& objective;
+  /// What earlier planners of this run said about parts that are still left.
+  std::span<const Unsolved> said{};
+};
+
+/// One group of all parts as assembled.
+DISMANTLE_API std::vector<std::vector<PlacedPart>> whole_assembly(const Assembly& assembly);
+
 /// Sees no path planner and no simulator, so that it composes with any. Same oracle and seed give the same result.
 class DISMANTLE_API SequencePlanner {
  public:
   virtual ~SequencePlanner();
-  /// False: a run with constraints is refused.
-  virtual bool keeps_constraints() const noexcept { return false; }
-  virtual SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+  virtual SequencePlannerTraits traits() const noexcept { return {}; }
+  virtual SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                               RunContext& context) = 0;
 };
 
