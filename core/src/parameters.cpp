@@ -68,12 +68,13 @@ void check_choices(const ParamSpec& spec, std::vector<std::string>& problems) {
     if (c.name.empty()) problems.push_back(text::join("parameter '", spec.name, "' has a choice without a name"));
     if (!names.insert(c.name).second)
       problems.push_back(text::join("parameter '", spec.name, "' lists the choice '", c.name, "' twice"));
-    if (c.doc.empty()) problems.push_back(text::join("choice '", c.name, "' of parameter '", spec.name, "' has no doc"));
+    if (c.doc.empty() && !spec.advanced)
+      problems.push_back(text::join("choice '", c.name, "' of parameter '", spec.name, "' has no doc"));
   }
 }
 
 void check_numeric(const ParamSpec& spec, std::vector<std::string>& problems) {
-  if (spec.unit.empty())
+  if (spec.unit.empty() && !spec.advanced)
     problems.push_back(text::join("parameter '", spec.name, "' has no unit (\"1\" for a pure number)"));
   const bool empty =
       spec.min && spec.max && (*spec.min > *spec.max || (*spec.min == *spec.max && (spec.min_open || spec.max_open)));
@@ -211,8 +212,13 @@ std::vector<std::string> problems_of_schema(const std::vector<ParamSpec>& specs)
       problems.push_back(text::join("parameter name '", spec.name, "' does not match [a-z][a-z0-9_]*"));
     if (spec.name == "type")  // stands beside the parameters in a configuration
       problems.push_back("parameter name 'type' is reserved for the id in a configuration");
-    if (!names.insert(spec.name).second) problems.push_back(text::join("parameter '", spec.name, "' is declared twice"));
-    if (spec.doc.empty()) problems.push_back(text::join("parameter '", spec.name, "' has no doc"));
+    if (!names.insert(spec.name).second)
+      problems.push_back(text::join("parameter '", spec.name, "' is declared twice"));
+    if (spec.name == "advanced")
+      problems.push_back("parameter name 'advanced' is reserved for the map of such parameters");
+    if (spec.advanced && spec.required)
+      problems.push_back(text::join("advanced parameter '", spec.name, "' has no default"));
+    if (spec.doc.empty() && !spec.advanced) problems.push_back(text::join("parameter '", spec.name, "' has no doc"));
     if (spec.type == ParamType::integer || spec.type == ParamType::number) check_numeric(spec, problems);
     if (spec.type == ParamType::choice) check_choices(spec, problems);
     for (const auto& problem : problems_of_schema(spec.options))

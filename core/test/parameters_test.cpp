@@ -147,6 +147,66 @@ TEST(Schema, RefusesUnknownAndBadValues) {
   EXPECT_THROW(complete(schema.specs(), {{"motion", std::string("jump")}}), std::invalid_argument);
 }
 
+struct Effort {
+  int tries = 3;
+};
+
+struct Studied : Effort {
+  double share = 0.5;
+  double step = 0.1;
+  std::string title;
+  bool greedy = true;
+  Motion motion = Motion::rotation;
+  PluginRef<PathPlanner> inner{"bfs"};
+
+  static void describe(Schema<Studied>& s) {
+    s.add("tries", &Effort::tries, {.unit = "1", .min = 1, .doc = "Tries."});
+    s.advanced("share", &Studied::share, {0, 1});
+    s.advanced("step", &Studied::step, {.min = 0, .min_open = true});
+    s.advanced("title", &Studied::title);
+    s.advanced("greedy", &Studied::greedy);
+    s.advanced("motion", &Studied::motion, {{"translation", Motion::translation}, {"rotation", Motion::rotation}});
+    s.advanced("inner", &Studied::inner);
+  }
+};
+
+// Law: advanced parameters are checked, completed and bound as the others; only they need neither doc nor unit.
+TEST(Schema, AdvancedParametersAreCheckedAsTheOthers) {
+  const Schema<Studied> schema;
+  EXPECT_EQ(problems_of_schema(schema.specs()), std::vector<std::string>{});
+  for (const ParamSpec& spec : schema.specs()) EXPECT_EQ(spec.advanced, spec.name != "tries") << spec.name;
+  EXPECT_EQ(schema.specs()[1].range_text(), "[0, 1]");
+  EXPECT_EQ(schema.specs()[2].range_text(), "> 0");
+  const ParamSet given = {
+      {"tries", std::int64_t{7}}, {"share", std::int64_t{1}}, {"motion", std::string("translation")}};
+  const Studied s = schema.bind(complete(schema.specs(), given));
+  EXPECT_EQ(s.tries, 7);
+  EXPECT_EQ(s.share, 1.0);
+  EXPECT_EQ(s.step, 0.1);
+  EXPECT_EQ(s.motion, Motion::translation);
+  EXPECT_EQ(s.inner.type(), "bfs");
+  for (const auto& [name, value] : ParamSet{{"share", 1.5},
+                                            {"step", 0.0},
+                                            {"title", true},
+                                            {"greedy", std::string("yes")},
+                                            {"motion", std::string("jump")},
+                                            {"shre", 0.5}})
+    EXPECT_THROW(complete(schema.specs(), {{name, value}}), std::invalid_argument) << name;
+}
+
+TEST(ProblemsOfSchema, AdvancedParametersHaveADefault) {
+  ParamSpec s;
+  s.name = "inner";
+  s.type = ParamType::plugin;
+  s.required = s.advanced = true;
+  EXPECT_EQ(problems_of_schema({s}), std::vector<std::string>{"advanced parameter 'inner' has no default"});
+  s = {};
+  s.name = "advanced";
+  s.unit = "1", s.doc = "Doc.", s.fallback = 1.0;
+  EXPECT_EQ(problems_of_schema({s}),
+            std::vector<std::string>{"parameter name 'advanced' is reserved for the map of such parameters"});
+}
+
 TEST(ParamSpec, SaysWhatIsWrong) {
   const Schema<Sample> schema;
   EXPECT_EQ(spec(schema, "range").problem_with(0.0), "must be in (0, 1], got 0 m");

@@ -41,6 +41,7 @@ struct ParamSpec {
   std::vector<ParamSpec> options{};  ///< `plugins`: keys that each item has beside the parameters of its own type
   bool required = false;             ///< there is no default: `fallback` is not a value
   bool may_be_empty = false;         ///< `plugins`: an empty list is a value
+  bool advanced = false;             ///< for studies: in the map `advanced` of a configuration; needs no unit, no doc
 
   /// The problem with `value`, if any. Checks type, range and choice, but not the parameters of plugins.
   DISMANTLE_API std::optional<std::string> problem_with(const ParamValue& value) const;
@@ -62,27 +63,37 @@ struct ParamTraits {
   std::string doc;
 };
 
+/// The range of an advanced number: {0, 1} is closed, {1} has no upper bound, {.min = 0, .min_open = true} is "> 0".
+struct ParamRange {
+  std::optional<double> min{}, max{};
+  bool min_open = false, max_open = false;
+};
+
 /// A value of an enumeration with its name in configurations.
 template <class E>
 struct EnumChoice {
   std::string name;
   E value;
-  std::string doc;
+  std::string doc{};
 };
 
 /// Collects the declarations of a parameter struct. Defaults are read from a default-constructed T,
 /// the only place where they are written:
 ///   struct P { double range = 0.05; static void describe(Schema<P>& s) { s.add("range", &P::range, {...}); } };
-/// Plugins: a member `PluginRef<PathPlanner>`, or a vector of them, or a vector of a struct with a member
-/// `PluginRef<...> plugin` and a `describe` that declares the other members of each item (then the default has to be
-/// empty). A reference without a default type, and an empty list, make the parameter required.
+/// `add` declares what a person sets, `advanced` what only a study of the algorithm changes. Both are in the same set
+/// of values, so their names differ; in a configuration the advanced ones are keys of the map `advanced`. Plugins: a
+/// member `PluginRef<PathPlanner>`, or a vector of them, or a vector of a struct with a member `PluginRef<...> plugin`
+/// and a `describe` that declares the other members of each item (then the default has to be empty). A reference
+/// without a default type, and an empty list, make the parameter required.
 template <class T>
 class Schema {
  public:
   Schema() { T::describe(*this); }
 
-  template <class M>
-  void add(std::string name, M T::* member, ParamTraits traits) {
+  /// Declares a parameter that a person sets. `of` is a member of T or of a base of T.
+  template <class M, class Base>
+  void add(std::string name, M Base::*of, ParamTraits traits) {
+    M T::*const member = of;
     const T defaults{};
     ParamSpec spec;
     spec.name = name;
@@ -122,8 +133,9 @@ class Schema {
     specs_.push_back(std::move(spec));
   }
 
-  template <class E>
-  void add_choice(std::string name, E T::* member, std::vector<EnumChoice<E>> choices, std::string doc) {
+  template <class E, class Base>
+  void add_choice(std::string name, E Base::*of, std::vector<EnumChoice<E>> choices, std::string doc) {
+    E T::*const member = of;
     const T defaults{};
     ParamSpec spec;
     spec.name = name;
@@ -138,6 +150,21 @@ class Schema {
         if (c.name == std::get<std::string>(p.at(name))) t.*member = c.value;
     });
     specs_.push_back(std::move(spec));
+  }
+
+  /// Declares a parameter that only studies change. The comment at the member says what it means.
+  template <class M, class Base>
+  requires(!std::is_enum_v<M>) void advanced(std::string name, M Base::*member, ParamRange range = {}) {
+    add<M>(std::move(name), member,
+           {.min = range.min, .max = range.max, .min_open = range.min_open, .max_open = range.max_open, .doc = {}});
+    specs_.back().advanced = true;
+  }
+  /// The same for an enumeration: s.advanced("order", &P::order, {{"near", Order::near}, {"far", Order::far}}).
+  template <class E, class Base>
+  requires std::is_enum_v<E>
+  void advanced(std::string name, E Base::*member, std::vector<EnumChoice<E>> choices) {
+    add_choice<E>(std::move(name), member, std::move(choices), {});
+    specs_.back().advanced = true;
   }
 
   const std::vector<ParamSpec>& specs() const { return specs_; }
@@ -158,7 +185,7 @@ class Schema {
     static constexpr bool is_plugin = true;
   };
   template <class Item>
-    requires is_plugin_ref<decltype(Item::plugin)>
+  requires is_plugin_ref<decltype(Item::plugin)>
   struct ListItem<std::vector<Item>> {
     static constexpr bool is_plugin = true;
   };
@@ -166,14 +193,14 @@ class Schema {
   static constexpr bool is_plugin_list = ListItem<M>::is_plugin;
 
   template <class Held, class M>
-  void set(const std::string& name, M T::* member) {
+  void set(const std::string& name, M T::*member) {
     setters_.emplace_back([name, member](T& t, const ParamSet& p, const PluginMaker&) {
       t.*member = static_cast<M>(std::get<Held>(p.at(name)));
     });
   }
 
   template <class M>
-  void add_plugin(ParamSpec& spec, M T::* member, const M& fallback) {
+  void add_plugin(ParamSpec& spec, M T::*member, const M& fallback) {
     spec.type = ParamType::plugin;
     spec.plugin_kind = M::kind;
     spec.fallback = fallback.choice();
@@ -184,7 +211,7 @@ class Schema {
   }
 
   template <class M>
-  void add_plugins(ParamSpec& spec, M T::* member, const M& fallback) {
+  void add_plugins(ParamSpec& spec, M T::*member, const M& fallback) {
     using Item = typename M::value_type;
     std::vector<PluginChoice> choices;
     spec.type = ParamType::plugins;
