@@ -7,7 +7,7 @@ set(DISMANTLE_SHIPPED_PLUGINS
   planners/path/bfs planners/path/bk_rrt planners/path/contact_search planners/path/mv_t_rrt
   planners/path/navigation_tree planners/path/portfolio planners/path/prm planners/path/rrt planners/path/rrt_connect_removal
   planners/path/t_rrt planners/path/tolerant_rrt planners/path/tunnel_forest
-  planners/sequence/blocking planners/sequence/mcts planners/sequence/ndbg planners/sequence/progressive planners/sequence/queue planners/sequence/random
+  planners/sequence/blocking planners/sequence/chain planners/sequence/least_cut planners/sequence/mcts planners/sequence/ndbg planners/sequence/progressive planners/sequence/queue planners/sequence/random
   planners/sequence/state_based
   planners/transfer/rrt_connect
   planners/immobility/configuration_cells planners/immobility/disc planners/immobility/enclosed_ball planners/immobility/hook
@@ -27,7 +27,7 @@ endif()
 # The plugins of the default configuration (configs/default.yaml), and those that read the samples.
 set(DISMANTLE_DEFAULT_PLUGINS plugins/importers/mesh_files simulators/sdf_penalty
   planners/path/portfolio planners/path/contact_search planners/path/navigation_tree planners/path/tolerant_rrt planners/path/tunnel_forest
-  planners/sequence/blocking planners/transfer/rrt_connect)
+  planners/sequence/blocking planners/sequence/chain planners/sequence/least_cut planners/transfer/rrt_connect)
 
 # The immobility provers.
 set(DISMANTLE_PROVER_PLUGINS ${DISMANTLE_SHIPPED_PLUGINS})

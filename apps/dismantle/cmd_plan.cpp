@@ -91,7 +91,7 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
   RunOptions run_options = run_options_of(config, options.part);
   run_options.constraints = constraints_of(config.constraints, assembly);
   run_options.flexible = report.flexible;
-  if (!run_options.constraints.empty() && options.part.empty() && !setup.sequence_planner->keeps_constraints())
+  if (!run_options.constraints.empty() && options.part.empty() && !setup.sequence_planner->traits().keeps_constraints)
     throw Error(fmt::format("there are constraints, and sequence planner '{}' does not keep any; 'blocking' does",
                             config.sequence_planner.type));
   open_output_folder(folder);
@@ -99,7 +99,7 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
 
   const bool careful = isolated || third_party(config.simulator.type) || third_party(config.path_planner.type) ||
                        third_party(config.sequence_planner.type);
-  Saver saver(folder / "plan.json", plan_before_first_step(assembly, run_options), console,
+  Saver saver(folder / "plan.json", assembly, run_options, console,
               careful ? Saver::When::every_step : Saver::When::every_second);
   give_up.has(assembly, saver);
   const std::string saved = (folder / "plan.json").string();
@@ -107,8 +107,8 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
     saver.save();
     notes.plan.set(saved);
   }
-  const auto on_step = [&](const Plan& so_far) {
-    saver(so_far);
+  const auto on_step = [&](const Disassembly& so_far, const DisassemblyStep& newest) {
+    saver(so_far, newest);
     notes.plan.set(saved);
   };
   const RunResult result = stoppable(context, [&] { return run(assembly, setup, run_options, context, on_step); });

@@ -7,7 +7,6 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/animation.h"
-#include "dismantle/plan_io/catch_up.h"
 #include "dismantle/plan_io/page.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/write_file.h"
@@ -43,46 +42,49 @@ std::vector<std::string> write_results(const RunResult& result, const Assembly& 
   return files;
 }
 
-Saver::Saver(fs::path file, Plan plan, Console& console, When when)
-    : file_(std::move(file)), console_(console), latest_(std::move(plan)), when_(when) {}
+Saver::Saver(fs::path file, const Assembly& assembly, const RunOptions& options, Console& console, When when)
+    : file_(std::move(file)),
+      assembly_(assembly),
+      options_(options),
+      console_(console),
+      latest_(options.start.empty() ? Disassembly(assembly.parts.size())
+                                    : Disassembly(assembly.parts.size(), options.start)),
+      when_(when) {}
 
-void Saver::save() {
-  const std::lock_guard lock(mutex_);
-  write_file(file_, to_json(latest_));
-}
+void Saver::save() { write_file(file_, to_json(latest())); }
 
-void Saver::operator()(const Plan& plan) {
+void Saver::operator()(const Disassembly& so_far, const DisassemblyStep& newest) {
   {
     const std::lock_guard lock(mutex_);
-    catch_up(latest_, plan);  // copying the whole plan each time would cost quadratic time
+    latest_.follow(so_far);
     const auto now = std::chrono::steady_clock::now();
     if (!saved_once_ || when_ == When::every_step || now - saved_ >= std::chrono::seconds(1)) {
-      write_file(file_, to_json(plan));
+      write_file(file_, to_json(plan_of(latest_, assembly_, options_)));
       saved_once_ = true;
       saved_ = now;
     }
   }
-  report(plan);  // after saving, so that no reported step is lost
+  report(newest, so_far.steps().size());  // after saving, so that no reported step is lost
 }
 
 Plan Saver::latest() const {
   const std::lock_guard lock(mutex_);
-  return latest_;
+  return plan_of(latest_, assembly_, options_);
 }
 
-void Saver::report(const Plan& plan) {
-  const PlanStep& step = plan.disassembly.back();
+void Saver::report(const DisassemblyStep& step, std::size_t number) const {
   std::string out, part_way;
-  for (const auto& move : step.moves) {
-    const bool leaves = std::any_of(step.separates.begin(), step.separates.end(), [&](const auto& group) {
-      return std::find(group.begin(), group.end(), move.part) != group.end();
-    });
-    std::string& names = leaves ? out : part_way;
-    names += (names.empty() ? "" : ", ") + move.part;
+  for (const PartId id : step.parts) {
+    std::string& names = step.leaves(id) ? out : part_way;
+    names += (names.empty() ? "" : ", ") + assembly_.parts[id].name;
   }
   if (!out.empty()) out += " out";
   if (!part_way.empty()) out += (out.empty() ? "" : ", ") + part_way + " moved part-way";
-  console_.line(fmt::format("step {}: {}, {} left ({:.2f} s)", step.step, out, plan.remaining.size(), step.seconds));
+  std::size_t left = 0;
+  const std::vector<std::vector<PartId>>& groups = latest_.groups();
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (g == 0 || groups[g].size() > 1) left += groups[g].size();
+  console_.line(fmt::format("step {}: {}, {} left ({:.2f} s)", number, out, left, step.seconds));
 }
 
 }  // namespace dismantle::app

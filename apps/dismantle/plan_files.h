@@ -28,24 +28,26 @@ class Saver {
  public:
   enum class When { every_second, every_step };
 
-  /// `plan`: the plan before the first step.
-  Saver(std::filesystem::path file, Plan plan, Console& console, When when);
+  /// Both references must outlive this.
+  Saver(std::filesystem::path file, const Assembly& assembly, const RunOptions& options, Console& console, When when);
 
   /// Saves the current plan.
   void save();
 
-  /// Takes the plan after another step.
-  void operator()(const Plan& plan);
+  /// Takes another step.
+  void operator()(const Disassembly& so_far, const DisassemblyStep& newest);
   /// The plan with all finished steps.
   Plan latest() const;
 
  private:
-  void report(const Plan& plan);
+  void report(const DisassemblyStep& step, std::size_t number) const;
 
   std::filesystem::path file_;
+  const Assembly& assembly_;
+  const RunOptions& options_;
   Console& console_;
   mutable std::mutex mutex_;
-  Plan latest_;
+  Disassembly latest_;
   bool saved_once_ = false;
   std::chrono::steady_clock::time_point saved_;
   const When when_;

@@ -80,6 +80,11 @@ void Disassembly::pop() {
   steps_.pop_back();
 }
 
+void Disassembly::follow(const Disassembly& longer) {
+  if (!steps_.empty()) pop();
+  for (std::size_t k = steps_.size(); k < longer.steps_.size(); ++k) add(longer.steps_[k]);
+}
+
 std::vector<PlacedPart> Disassembly::placed(std::span<const PartId> parts, std::size_t after) const {
   std::vector<PlacedPart> list;
   for (const PartId id : parts) list.push_back({id, pose(id, after)});

@@ -173,7 +173,7 @@ TEST(AssemblySteps, PartsThatStayHaveNone) {
 /// Takes the two upper blocks out of the tube together, then one off the other, then the third.
 class PairFirst final : public SequencePlanner {
  public:
-  SequenceResult plan(const Assembly&, PathOracle& oracle, SequenceObserver& observer, RunContext& context) override {
+  SequenceResult plan(const SequenceQuery&, PathOracle& oracle, SequenceObserver& observer, RunContext& context) override {
     SequenceResult result;
     result.outcome = Outcome::solved;
     std::vector<Pose> at(4);

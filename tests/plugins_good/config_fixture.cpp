@@ -24,7 +24,7 @@ class NoPath : public FunctionPathPlanner {
 
 class NoSequence : public SequencePlanner {
  public:
-  SequenceResult plan(const Assembly&, PathOracle&, SequenceObserver&, RunContext&) override { return {}; }
+  SequenceResult plan(const SequenceQuery&, PathOracle&, SequenceObserver&, RunContext&) override { return {}; }
 };
 
 class NoTransfer : public TransferPlanner {

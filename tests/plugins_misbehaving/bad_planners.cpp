@@ -142,8 +142,9 @@ enum class Fault { throws, claims_success, removes_twice, segfault };
 template <Fault kFault>
 class Sequence final : public dismantle::SequencePlanner {
  public:
-  dismantle::SequenceResult plan(const dismantle::Assembly& assembly, dismantle::PathOracle& oracle,
+  dismantle::SequenceResult plan(const dismantle::SequenceQuery& query, dismantle::PathOracle& oracle,
                                  dismantle::SequenceObserver& observer, RunContext& context) override {
+    const dismantle::Assembly& assembly = query.assembly;
     dismantle::SequenceResult result;
     dismantle::Attempt attempt;
     for (const auto& part : assembly.parts) {

@@ -101,7 +101,7 @@ HeldPlan plan(const LoadedAssembly& loaded, const std::string& file, const std::
         RunOptions options = run_options_of(config, part);
         options.constraints = constraints_of(config.constraints, *assembly);
         options.flexible = with_declared(loaded.recognised, config.constraints.flexible, *assembly);
-        if (!options.constraints.empty() && part.empty() && !setup.sequence_planner->keeps_constraints())
+        if (!options.constraints.empty() && part.empty() && !setup.sequence_planner->traits().keeps_constraints)
           throw Error(fmt::format("there are constraints, and sequence planner '{}' does not keep any; 'blocking' does",
                                   config.sequence_planner.type));
         return run(*assembly, setup, options, context);

@@ -10,6 +10,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "dismantle/errors.h"
+#include "dismantle/part_set.h"
 #include "python_type.h"
 #include "run_view.h"
 
@@ -26,23 +27,20 @@ struct Answer {
   }
 };
 
-std::vector<PartId> ids_of(const std::vector<PlacedPart>& parts) {
-  std::vector<PartId> ids;
-  for (const auto& p : parts) ids.push_back(p.part);
-  return ids;
-}
-
 /// Oracle, observer and bookkeeping of one call of plan().
 class SequenceView {
  public:
-  SequenceView(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer, RunContext& context)
+  SequenceView(const Assembly& assembly, const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
+               RunContext& context)
       : assembly_(&assembly),
         oracle_(&oracle),
         observer_(&observer),
         context_(&context),
-        open_(std::make_shared<bool>(true)) {
-    for (PartId id = 0; id < assembly.parts.size(); ++id) left_.push_back(id);
-    groups_.push_back(left_);
+        open_(std::make_shared<bool>(true)),
+        disassembly_(assembly.parts.size(), query.start) {
+    for (const auto& group : query.start)
+      for (const PlacedPart& p : group) left_.push_back(p.part);
+    steps_ = left_.size() - query.start.size();
   }
   void close() { *open_ = false; }
   PathOracle& oracle() const {
@@ -50,7 +48,11 @@ class SequenceView {
     return *oracle_;
   }
   const std::vector<PartId>& left() const { return left_; }
-  const std::vector<std::vector<PartId>>& groups() const { return groups_; }
+  std::vector<std::vector<PartId>> groups() const {
+    std::vector<std::vector<PartId>> present = disassembly_.groups();
+    std::erase_if(present, [](const auto& group) { return group.empty(); });
+    return present;
+  }
   const std::vector<Removal>& removals() const { return removals_; }
   const Assembly& assembly() const { return *assembly_; }
   RunContext& context() const { return *context_; }
@@ -62,10 +64,7 @@ class SequenceView {
     attempt.resume = resume;
     attempt.moving = placed(moving, "moving");
     if (fixed.is_none()) {
-      for (const PartId id : group_of(attempt.moving.front().part))
-        if (std::none_of(attempt.moving.begin(), attempt.moving.end(),
-                         [id](const PlacedPart& p) { return p.part == id; }))
-          attempt.fixed.push_back({id, pose_of_part(id)});
+      attempt.fixed = without(disassembly_.around(attempt.moving.front().part), attempt.moving);
     } else {
       attempt.fixed = placed(fixed, "fixed");
     }
@@ -130,23 +129,17 @@ class SequenceView {
     if (!is_success(result.result.outcome()))
       throw py::value_error(fmt::format("remove() takes an answer that is a success, this one is '{}'",
                                         to_string(result.result.outcome())));
-    const std::vector<PartId> moved = ids_of(result.attempt.moving);
-    const std::vector<PartId> out = result.out ? std::vector<PartId>{*result.out} : moved;
-    if (!result.attempt.goal.placement) {
-      const auto is_out = [&](PartId id) { return std::find(out.begin(), out.end(), id) != out.end(); };
-      std::erase_if(left_, is_out);
-      for (auto& group : groups_) std::erase_if(group, is_out);
-      groups_.push_back(out);
-      std::erase_if(groups_, [](const auto& group) { return group.empty(); });
-    }
-    if (result.result.path()) {
-      const auto& last = result.result.path()->poses().back();
-      for (std::size_t i = 0; i < moved.size(); ++i) poses_[moved[i]] = last[i];
-    }
-    removals_.push_back({moved, &result});
+    DisassemblyStep step;
+    step.parts = ids_of(result.attempt.moving);
+    step.path = std::make_shared<const Path>(result.path());
+    step.placement = result.attempt.goal.placement;
+    step.released = result.out;
+    left_ = without(left_, step.leaving());
+    removals_.push_back({step.parts, &result});
+    disassembly_.add(std::move(step));
     py::gil_scoped_release release;
     observer_->removed(removals_.back(), left_.size());
-    context_->progress("sequence", assembly_->parts.size() - left_.size(), assembly_->parts.size() - 1);
+    context_->progress("sequence", disassembly_.steps().size(), steps_);
   }
 
   void check_open() const {
@@ -154,18 +147,10 @@ class SequenceView {
   }
 
  private:
-  const std::vector<PartId>& group_of(PartId part) const {
-    return *std::find_if(groups_.begin(), groups_.end(),
-                         [part](const auto& g) { return std::find(g.begin(), g.end(), part) != g.end(); });
-  }
-  Pose pose_of_part(PartId id) const {
-    const auto known = poses_.find(id);
-    return known == poses_.end() ? Pose{} : known->second;
-  }
   /// Parts by name or number, at their current poses.
   std::vector<PlacedPart> placed(const py::object& parts, const char* what) const {
     std::vector<PlacedPart> out;
-    for (const PartId id : part_ids(*assembly_, parts)) out.push_back({id, pose_of_part(id)});
+    for (const PartId id : part_ids(*assembly_, parts)) out.push_back({id, disassembly_.pose(id)});
     if (out.empty() && std::string_view(what) == "moving") throw py::value_error("moving: name at least one part");
     return out;
   }
@@ -175,9 +160,9 @@ class SequenceView {
   SequenceObserver* observer_;
   RunContext* context_;
   std::shared_ptr<bool> open_;
-  std::vector<PartId> left_;                 // not removed yet
-  std::vector<std::vector<PartId>> groups_;  // parts that are not separated from each other yet
-  std::map<PartId, Pose> poses_;
+  std::vector<PartId> left_;  // not removed yet
+  Disassembly disassembly_;
+  std::size_t steps_ = 0;  // when all are apart
   std::vector<Removal> removals_;
 };
 
@@ -218,11 +203,11 @@ class PythonSequencePlanner final : public SequencePlanner {
  public:
   PythonSequencePlanner(PythonType type, Held object) : type_(std::move(type)), object_(std::move(object)) {}
 
-  SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+  SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override {
     py::gil_scoped_acquire lock;
-    const LoadedAssembly loaded{std::make_shared<const Assembly>(assembly), nullptr, {}};
-    const auto view = std::make_shared<SequenceView>(*loaded.assembly, oracle, observer, context);
+    const LoadedAssembly loaded{std::make_shared<const Assembly>(query.assembly), nullptr, {}};
+    const auto view = std::make_shared<SequenceView>(*loaded.assembly, query, oracle, observer, context);
     const auto run = std::make_shared<RunView>(context);
     SequenceResult result;
     std::string problem;

@@ -27,7 +27,7 @@ struct ForcedCut {
 };
 
 /// One step: parts of one group move simultaneously.
-struct DisassemblyStep {
+struct DISMANTLE_API DisassemblyStep {
   std::vector<PartId> parts;         ///< that move, ascending, as the columns of the path
   std::shared_ptr<const Trace> path;  ///< verified, or forced
   bool placement = false;            ///< the parts stay in their group at the last poses of the path
@@ -64,6 +64,9 @@ class DISMANTLE_API Disassembly {
   void add(DisassemblyStep step);
   /// Takes the last step back.
   void pop();
+  /// Takes over the steps of another one that began with the same start and the same steps, but for the last of them,
+  /// which it may have replaced. Copies only what is new.
+  void follow(const Disassembly& longer);
 
   const Pose& pose(PartId part, std::size_t after = kNow) const { return stand(part, after).pose; }
   std::size_t group(PartId part, std::size_t after = kNow) const { return stand(part, after).group; }

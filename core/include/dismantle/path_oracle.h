@@ -57,6 +57,7 @@ struct AttemptResult {
   /// Proof that explains why no path was found, if any; always set for `infeasible`. Lives as long as the oracle.
   const Certificate* certificate = nullptr;
   double proof_seconds = 0;  ///< spent on proofs; not part of `seconds`
+  bool proposed = false;     ///< the caller found the path: an answer of propose()
   /// Set by ForcingOracle::propose_forced only; `result` then is no success and has no path.
   std::shared_ptr<const ForcedRemoval> forced{};
 
@@ -88,6 +89,10 @@ class DISMANTLE_API ForcingOracle {
   virtual std::optional<MotionDepth> depth(const std::vector<PartId>& moving, const std::vector<PlacedPart>& fixed,
                                            const Path& path, const MotionDepthOptions& options,
                                            const RunContext& context) = 0;
+  /// Tries proofs about parts that are left without one; they explain more than the messages of searches do. `groups`:
+  /// the groups that are left.
+  virtual void prove_left(std::vector<Unsolved>& unsolved, const std::vector<std::vector<PlacedPart>>& groups,
+                          const RunContext& context) = 0;
   /// Answers with a removal along this path, whatever it cuts into, and states depth and reason. `known`: the depth, if
   /// depth() has measured the whole path of this question. The answer may be recorded like a success.
   virtual const AttemptResult& propose_forced(const Attempt& attempt, const Path& path,

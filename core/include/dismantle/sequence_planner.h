@@ -17,6 +17,7 @@ namespace dismantle {
 struct Removal {
   std::vector<PartId> parts;  ///< parts that moved, ascending, as Path columns
   const AttemptResult* attempt = nullptr;
+  std::string planner{};  ///< id of the sequence planner that proposed the path; empty: the one of the run
 };
 
 /// Result of a sequence planner.
@@ -27,6 +28,7 @@ struct SequenceResult {
   std::vector<PartId> remaining;         ///< parts never removed (one when solved)
   std::vector<Unsolved> unsolved;        ///< why the others are still there; empty when solved
   std::map<std::string, double> counts;  ///< the planner's own counts, by documented names
+  std::vector<const Certificate*> proofs{};  ///< of the oracle: about parts that have left since, for the plan to state
 };
 
 /// Receives each removal when it is found, so that an interruption loses nothing.

@@ -12,6 +12,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/executor.h"
 #include "dismantle/geometry/swept_boxes.h"
+#include "dismantle/part_set.h"
 #include "placed_paths.h"
 
 namespace dismantle {
@@ -20,59 +21,39 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-bool contains(const std::vector<PartId>& parts, PartId id) {
-  return std::find(parts.begin(), parts.end(), id) != parts.end();
-}
-
 }  // namespace
 
-/// Poses and groups of all parts over time. Step g - 1 made group g > 0. "Place" of a group: its displacement from its
-/// pose in the disassembly.
+/// The disassembly, and where its groups lie before assembly. "Place" of a group: its displacement from its pose in the
+/// disassembly. Groups of the start stay where they are.
 struct Assembler::Scenery {
-  /// Pose and group of a part after at least `since` steps of the disassembly.
-  struct Stand {
-    std::size_t since = 0;
-    Pose pose;
-    std::size_t group = 0;
-  };
-  const std::vector<RecordedStep>& steps;
-  std::vector<std::vector<Stand>> stands;  ///< [part]: the first one, and one for each step that moves the part
-  std::vector<Pose> place;                 ///< [group]
-  std::vector<std::string> missing;        ///< [group]: why it is not in the layout; empty: it is
+  const Disassembly& done;
+  const std::vector<DisassemblyStep>& steps;
+  std::vector<Pose> place;           ///< [group]
+  std::vector<std::string> missing;  ///< [group]: why it is not in the layout; empty: it is
 
-  Scenery(const std::vector<RecordedStep>& recorded, std::size_t parts)
-      : steps(recorded), stands(parts, std::vector<Stand>(1)) {
-    place.resize(steps.size() + 1), missing.resize(steps.size() + 1);
-    for (std::size_t i = 0; i < steps.size(); ++i)
-      for (std::size_t k = 0; k < steps[i].parts.size(); ++k) {
-        auto& list = stands[steps[i].parts[k]];
-        const std::size_t group = steps[i].leaves(steps[i].parts[k]) ? i + 1 : list.back().group;
-        list.push_back({i + 1, steps[i].path->back()[k], group});
-      }
+  explicit Scenery(const Disassembly& disassembly) : done(disassembly), steps(disassembly.steps()) {
+    place.resize(done.groups().size()), missing.resize(done.groups().size());
   }
 
-  /// After k steps of the disassembly.
-  const Stand& stand(std::size_t k, std::size_t part) const {
-    const auto& list = stands[part];
-    return *std::prev(std::partition_point(list.begin(), list.end(), [&](const Stand& s) { return s.since <= k; }));
-  }
+  bool of_start(std::size_t group) const { return group < done.start_groups(); }
   /// All parts but those of step `i`, at the time of their transfer. Groups that are not in the layout are left out,
   /// except the one that the step adds to.
   std::vector<PlacedPart> others(std::size_t i) const {
     std::vector<PlacedPart> all;
-    for (PartId id = 0; id < stands.size(); ++id) {
-      const Stand& s = stand(i + 1, id);
-      if (contains(steps[i].parts, id) || (!missing[s.group].empty() && s.group != steps[i].from)) continue;
-      all.push_back({id, place[s.group] * s.pose});
+    for (PartId id = 0; id < done.parts(); ++id) {
+      const std::size_t group = done.group(id, i + 1);
+      if (group == Disassembly::kAbsent || contains(steps[i].parts, id)) continue;
+      if (!missing[group].empty() && group != done.left_group(i)) continue;
+      all.push_back({id, place[group] * done.pose(id, i + 1)});
     }
     return all;
   }
   void leave_out(std::size_t group, std::string why) {
     missing[group] = std::move(why);
-    place[group] = place[steps[group - 1].from];
+    place[group] = place[done.left_group(group - done.start_groups())];
   }
   /// The reversed disassembly path of step `i`, at the place of the group that its parts are inserted into.
-  Path way_in(std::size_t i) const { return backwards(displaced(place[steps[i].from], *steps[i].path)); }
+  Path way_in(std::size_t i) const { return backwards(displaced(place[done.left_group(i)], *steps[i].path)); }
 };
 
 /// Transfer from the layout to where the way in begins.
@@ -107,46 +88,47 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
   const std::size_t n = scenery.steps.size();
   // Box that each group needs: for its parts, and for the motions of parts that are inserted into it. On a screw motion
   // between two dense poses, a point leaves the box of its end points by less than half of its travel.
-  std::vector<Aabb> rooms(n + 1);
+  const Disassembly& done = scenery.done;
+  std::vector<Aabb> rooms(done.groups().size());
   const double sagitta = 0.5 * normalizer_.max_travel();
-  for (std::size_t p = 0; p < scenery.stands.size(); ++p)
-    rooms[0].extend(box_of(static_cast<PartId>(p), scenery.stand(0, p).pose));
-  const Aabb assembled = rooms[0];
+  Aabb assembled;
+  for (PartId p = 0; p < done.parts(); ++p)
+    if (done.group(p, 0) != Disassembly::kAbsent) assembled.extend(box_of(p, done.pose(p, 0)));
+  rooms[0] = assembled;
   for (std::size_t i = 0; i < n; ++i) {
-    const RecordedStep& step = scenery.steps[i];
+    const DisassemblyStep& step = scenery.steps[i];
     for (std::size_t k = 0; k < step.parts.size(); ++k) {
-      if (step.leaves(step.parts[k])) rooms[i + 1].extend(box_of(step.parts[k], step.path->back()[k]));
+      if (step.leaves(step.parts[k])) rooms[done.group_of_step(i)].extend(box_of(step.parts[k], step.path->back()[k]));
       const Aabb box = assembly_.parts[step.parts[k]].mesh->box();
       Aabb swept;
       for (const auto& instant : *step.path) swept.extend(geometry::box_under(box, instant[k]));
       swept.inflate(sagitta);
-      rooms[step.from].extend(swept);
+      rooms[done.left_group(i)].extend(swept);
     }
   }
 
   std::vector<std::string> remarks;
   std::vector<Aabb> taken{rooms[0]};
-  std::vector<bool> given(n + 1, false);
+  std::vector<bool> given(done.groups().size(), false);
   for (const auto& [name, pose] : layout.poses) {
     const auto part = std::find_if(assembly_.parts.begin(), assembly_.parts.end(),
                                    [&, &wanted = name](const Part& p) { return p.name == wanted; });
     if (part == assembly_.parts.end()) continue;  // run() has reported it
-    const std::size_t g = scenery.stands[part->id].back().group;
-    if (g == 0) {
+    const std::size_t g = done.group(part->id);
+    if (g == Disassembly::kAbsent || scenery.of_start(g)) {
       remarks.push_back(fmt::format("layout: '{}' is not removed, so it stays where it is", name));
     } else if (given[g]) {
       remarks.push_back(fmt::format("layout: '{}' lies with parts whose place was given already", name));
     } else {
       given[g] = true;
-      scenery.place[g] =
-          assembly_.normalization.pose_to_internal(pose) * scenery.stands[part->id].back().pose.inverse();
+      scenery.place[g] = assembly_.normalization.pose_to_internal(pose) * done.pose(part->id).inverse();
       taken.push_back(geometry::box_under(rooms[g], scenery.place[g]));
     }
   }
   std::vector<Aabb> boxes;
   std::vector<std::size_t> ours;
-  for (std::size_t g = 1; g <= n; ++g)
-    if (!given[g] && !scenery.steps[g - 1].part_way) {
+  for (std::size_t i = 0; i < n; ++i)
+    if (const std::size_t g = done.group_of_step(i); !given[g] && !scenery.steps[i].placement) {
       boxes.push_back(rooms[g]);
       ours.push_back(g);
     }
@@ -164,17 +146,18 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
 void Assembler::clear_ways_in(Scenery& scenery, const RunContext& context) const {
   for (std::size_t i = 0; i < scenery.steps.size(); ++i) {
     if (context.should_stop()) return;  // no more transfers are searched for
-    const std::size_t from = scenery.steps[i].from;
+    const std::size_t from = scenery.done.left_group(i);
     std::vector<PlacedPart> others = scenery.others(i);
     // The parts that it passed on its way out need no check: the motion is the same.
-    std::erase_if(others, [&](const PlacedPart& p) { return scenery.stand(i + 1, p.part).group == from; });
+    std::erase_if(others, [&](const PlacedPart& p) { return scenery.done.group(p.part, i + 1) == from; });
     const MotionCheck check = verifier_.check_motion(scenery.steps[i].parts, others, scenery.way_in(i), context);
     if (check.interrupted) return;
     if (check.valid) continue;
     const Violation v = check.violation.value_or(Violation{});
     const PartId id = contains(scenery.steps[i].parts, v.part) ? v.other : v.part;
-    const std::size_t lies = scenery.stand(i + 1, id).group;
-    const std::size_t wrong = lies > 0 ? lies : from;  // group 0 stays: then leave out the group that is added to
+    const std::size_t lies = scenery.done.group(id, i + 1);
+    const std::size_t wrong = scenery.of_start(lies) ? from : lies;  // what stays cannot be left out
+    if (scenery.of_start(wrong)) continue;
     if (!scenery.missing[wrong].empty()) continue;
     scenery.leave_out(wrong, fmt::format("in the layout '{}' lies where '{}' is put in", assembly_.parts[id].name,
                                          assembly_.parts[scenery.steps[i].parts.front()].name));
@@ -229,17 +212,18 @@ class Assembler::Checker final : public PathChecker {
 
 Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, TransferPlanner& planner,
                                    const RunContext& context) const {
-  const RecordedStep& step = scenery.steps[i];
+  const DisassemblyStep& step = scenery.steps[i];
+  const std::size_t from = scenery.done.left_group(i), made = scenery.done.group_of_step(i);
   Scene scene{{}, scenery.others(i)};
   std::vector<Pose> goal;
   for (const PartId id : step.parts) {
-    const Pose& out = scenery.stand(i + 1, id).pose;
+    const Pose& out = scenery.done.pose(id, i + 1);
     if (!step.leaves(id)) {  // already there, and waits
-      scene.fixed.push_back({id, scenery.place[step.from] * out});
+      scene.fixed.push_back({id, scenery.place[from] * out});
       continue;
     }
-    scene.moving.push_back({id, scenery.place[i + 1] * out});
-    goal.push_back(scenery.place[step.from] * out);
+    scene.moving.push_back({id, scenery.place[made] * out});
+    goal.push_back(scenery.place[from] * out);
   }
 
   std::vector<std::pair<LogLevel, std::string>> log;
@@ -291,7 +275,7 @@ std::vector<Assembler::Way> Assembler::transfers(const Scenery& scenery, std::si
   std::vector<Way> ways(last - first);
   const auto one = [&](std::size_t k, TransferPlanner& planner) {
     const std::size_t i = first + k;
-    if (!scenery.missing[i + 1].empty() || scenery.steps[i].part_way) return;
+    if (!scenery.missing[scenery.done.group_of_step(i)].empty() || scenery.steps[i].placement) return;
     if (context.should_stop())
       ways[k].looked_for = false;
     else
@@ -313,7 +297,7 @@ std::vector<Assembler::Way> Assembler::transfers(const Scenery& scenery, std::si
 }
 
 PlanStep Assembler::to_step(const Scenery& scenery, std::size_t i, const Way& way, const PlanStep& there) const {
-  const RecordedStep& step = scenery.steps[i];
+  const DisassemblyStep& step = scenery.steps[i];
   PlanStep back = reversed(there);
   back.max_penetration = std::max(there.max_penetration, way.max_penetration);
   back.planner = way.path.empty() ? "" : setup_.transfer_planner_id;
@@ -329,7 +313,7 @@ PlanStep Assembler::to_step(const Scenery& scenery, std::size_t i, const Way& wa
     for (std::size_t at = 0; at < back.transfer; ++at)
       poses.push_back(assembly_.normalization.pose_to_input(waits ? in.front()[k] : way.path[at][column]));
     if (!waits) ++column;
-    if (scenery.place[step.from].is_identity())
+    if (scenery.place[scenery.done.left_group(i)].is_identity())
       poses.insert(poses.end(), back.moves[k].poses.begin(), back.moves[k].poses.end());
     else
       for (const auto& instant : in) poses.push_back(assembly_.normalization.pose_to_input(instant[k]));
@@ -338,8 +322,9 @@ PlanStep Assembler::to_step(const Scenery& scenery, std::size_t i, const Way& wa
   return back;
 }
 
-AssemblyPlan Assembler::put_together(const std::vector<RecordedStep>& steps, const std::vector<PlanStep>& written,
+AssemblyPlan Assembler::put_together(const Disassembly& done, const std::vector<PlanStep>& written,
                                      const RunContext& context) {
+  const std::vector<DisassemblyStep>& steps = done.steps();
   AssemblyPlan plan;
   std::vector<std::string> problems;
   std::size_t not_looked_for = 0;
@@ -348,7 +333,7 @@ AssemblyPlan Assembler::put_together(const std::vector<RecordedStep>& steps, con
     for (const PartId id : steps[i].parts) text += (text.empty() ? "'" : ", '") + assembly_.parts[id].name + "'";
     return text;
   };
-  Scenery scenery(steps, assembly_.parts.size());
+  Scenery scenery(done);
   place_groups(scenery, context);
   clear_ways_in(scenery, context);
 
@@ -360,20 +345,20 @@ AssemblyPlan Assembler::put_together(const std::vector<RecordedStep>& steps, con
     std::vector<Way> ways = transfers(scenery, first, std::min(first + wave, steps.size()), context);
     bool as_supposed = true;
     for (std::size_t k = 0; k < ways.size() && as_supposed; ++k) {
-      const std::size_t i = first++;
+      const std::size_t i = first++, made = done.group_of_step(i);
       context.progress("assembly", i, steps.size(), assembly_.parts[steps[i].parts.front()].name);
       for (const auto& [level, text] : ways[k].log) context.log(level, text);
       if (!ways[k].looked_for) {
         ++not_looked_for;
-        scenery.leave_out(i + 1, fmt::format("the way of {} from the layout was not looked for", names(i)));
+        scenery.leave_out(made, fmt::format("the way of {} from the layout was not looked for", names(i)));
         as_supposed = false;
       } else {
-        if (scenery.missing[i + 1].empty() && !steps[i].part_way && ways[k].path.empty()) {
-          scenery.leave_out(i + 1,
+        if (scenery.missing[made].empty() && !steps[i].placement && ways[k].path.empty()) {
+          scenery.leave_out(made,
                             fmt::format("no way from the layout was found for {}: {}", names(i), ways[k].problem));
           as_supposed = false;
         }
-        if (!scenery.missing[i + 1].empty()) problems.push_back(scenery.missing[i + 1]);
+        if (!scenery.missing[made].empty()) problems.push_back(scenery.missing[made]);
       }
       plan.steps.push_back(to_step(scenery, i, ways[k], written[i]));
     }

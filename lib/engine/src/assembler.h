@@ -8,7 +8,7 @@
 #include "deferred_simulator.h"
 #include "dismantle/engine/run.h"
 #include "path_normalizer.h"
-#include "plan_builder.h"
+#include "to_plan.h"
 
 namespace dismantle {
 
@@ -30,8 +30,8 @@ class Assembler {
   Assembler(const Assembly& assembly, const DeferredSimulator& simulator, const PlanningSetup& setup,
             const RunOptions& options, const Verifier& verifier);
 
-  /// `written`: the same steps in the form of the plan.
-  AssemblyPlan put_together(const std::vector<RecordedStep>& steps, const std::vector<PlanStep>& written,
+  /// `written`: its steps in the form of the plan.
+  AssemblyPlan put_together(const Disassembly& done, const std::vector<PlanStep>& written,
                             const RunContext& context);
 
  private:

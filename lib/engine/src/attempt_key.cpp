@@ -121,11 +121,4 @@ std::uint64_t stream_of(const AttemptKey& key) {
   return stream;
 }
 
-std::vector<PartId> ids_of(const std::vector<PlacedPart>& placed) {
-  std::vector<PartId> ids;
-  ids.reserve(placed.size());
-  for (const auto& p : placed) ids.push_back(p.part);
-  return ids;
-}
-
 }  // namespace dismantle

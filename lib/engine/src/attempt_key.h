@@ -41,7 +41,4 @@ bool may_follow(const Attempt& now, const Attempt& earlier);
 /// Random stream of the question: the same on every machine, in any order of asking, and for new and resumed searches.
 std::uint64_t stream_of(const AttemptKey& key);
 
-/// Ids of `placed`, in order.
-std::vector<PartId> ids_of(const std::vector<PlacedPart>& placed);
-
 }  // namespace dismantle

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "dismantle/part_set.h"
 #include "stopwatch.h"
 
 namespace dismantle {
@@ -39,10 +40,11 @@ Oracle::Oracle(const Assembly& assembly, const PreparedAssembly& prepared, const
     : part_count_((check(setup), assembly.parts.size())),
       deferred_(deferred),
       verifier_(verifier),
-      constraints_(options.constraints),
       make_planner_(setup.path_planner),
       runner_(assembly, prepared, setup, deferred, options, verifier, context.rng),
       proofs_(assembly, verifier, setup.provers, options.proofs, context),
+      forcing_(options.force == ForceWhen::off ? nullptr
+                                               : std::make_unique<Forcing>(assembly, verifier, *this, options.proofs)),
       computed_ahead_(context.threads > 1 ? context.executor : nullptr, Executor::Priority::idle) {}
 
 std::shared_ptr<PathPlanner> Oracle::borrow_planner() {
@@ -221,6 +223,7 @@ const AttemptResult& Oracle::propose(const Attempt& attempt, const Path& path, R
     computed = runner_.check_proposal(attempt, path, context);
   }
   computed.answer.attempt = std::move(question);
+  computed.answer.proposed = true;
   const AttemptResult& result = keep(std::move(computed.answer));
   if (computed.interrupted) return result;
   ++proposed_;
@@ -229,6 +232,13 @@ const AttemptResult& Oracle::propose(const Attempt& attempt, const Path& path, R
   else
     ++refused_;
   return result;
+}
+
+const AttemptResult& Oracle::keep_forced(AttemptResult answer) {
+  const std::lock_guard lock(ask_mutex_);
+  const AttemptResult& kept = keep(std::move(answer));
+  keys_.emplace(&kept, AttemptKey{digest_of(kept.attempt), 0, {}});
+  return kept;
 }
 
 OracleCounts Oracle::counts() const {
@@ -249,7 +259,7 @@ const AttemptKey* Oracle::key_of(const AttemptResult* result) const {
 SearchEffort Oracle::effort_on(PartId part) const {
   SearchEffort effort;
   for (const AttemptResult& answer : results_) {  // in the order of asking
-    const bool moves = std::ranges::any_of(answer.attempt.moving, [&](const PlacedPart& p) { return p.part == part; });
+    const bool moves = contains(answer.attempt.moving, part);
     const auto key = keys_.find(&answer);
     if (!moves || key == keys_.end() || is_success(answer.result.outcome()) || !answers_.contains(key->second))
       continue;

@@ -11,6 +11,7 @@
 
 #include "attempt_runner.h"
 #include "dismantle/speculative_cache.h"
+#include "forcing.h"
 #include "proof_schedule.h"
 
 namespace dismantle {
@@ -49,7 +50,7 @@ class Oracle final : public PathOracle {
   }
   PartMemo* memo() override { return &proofs_.memo(); }
   double tolerance() const override { return verifier_.options().max_penetration; }
-  const Constraints& constraints() const override { return constraints_; }
+  ForcingOracle* forcing() override { return forcing_.get(); }
 
   /// Key of `result`; null unless this oracle planned it, remembered it, or accepted it as a proposal.
   const AttemptKey* key_of(const AttemptResult* result) const;
@@ -57,6 +58,8 @@ class Oracle final : public PathOracle {
   /// interrupted.
   SearchEffort effort_on(PartId part) const;
   const std::string& planner_id() const { return runner_.planner_id(); }
+  /// Keeps an answer with a forced removal; its question is canonical.
+  const AttemptResult& keep_forced(AttemptResult answer);
   /// Proofs that parts cannot be separated.
   ProofSchedule& proofs() { return proofs_; }
   /// As ProofSchedule::seconds.
@@ -87,10 +90,10 @@ class Oracle final : public PathOracle {
   std::size_t part_count_;
   const DeferredSimulator* deferred_;
   const Verifier& verifier_;
-  Constraints constraints_;
   std::function<std::shared_ptr<PathPlanner>()> make_planner_;
   AttemptRunner runner_;
   ProofSchedule proofs_;
+  std::unique_ptr<Forcing> forcing_;  ///< null: no step is forced
   std::mutex ask_mutex_;  ///< one question at a time
   std::deque<AttemptResult> results_;
   std::map<AttemptKey, const AttemptResult*> answers_;

@@ -6,43 +6,11 @@
 #include <utility>
 
 #include "dismantle/geometry/swept_boxes.h"
+#include "dismantle/part_set.h"
 
 namespace dismantle {
 
 namespace {
-
-bool holds(const std::vector<PartId>& parts, PartId id) {
-  return std::find(parts.begin(), parts.end(), id) != parts.end();
-}
-
-/// Groups and poses of all parts before any step. Stores only the changes of each step, to save memory.
-struct History {
-  std::vector<std::vector<Pose>> poses;  // [step][k]: of its k-th part, just before it
-  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> groups;  // [part]: from this step on, in this group
-
-  /// The group of `part` just before `step`.
-  std::size_t group(PartId part, std::size_t step) const {
-    const auto& list = groups[part];
-    const auto after = std::partition_point(list.begin(), list.end(), [&](const auto& g) { return g.first <= step; });
-    return after == list.begin() ? 0 : std::prev(after)->second;
-  }
-};
-
-History history_of(const std::vector<RecordedStep>& steps, std::size_t part_count) {
-  History history;
-  history.groups.resize(part_count);
-  std::vector<Pose> at(part_count);
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    std::vector<Pose>& before = history.poses.emplace_back();
-    for (const PartId id : steps[i].parts) before.push_back(at[id]);
-    for (std::size_t k = 0; k < steps[i].parts.size(); ++k) {
-      const PartId id = steps[i].parts[k];
-      at[id] = steps[i].path->back()[k];
-      if (steps[i].leaves(id)) history.groups[id].emplace_back(i + 1, i + 1);
-    }
-  }
-  return history;
-}
 
 /// True for a path without rotation, along one line.
 bool is_straight(const std::vector<Pose>& way) {
@@ -60,7 +28,7 @@ struct PartWay {
   Aabb box;
 };
 
-std::vector<PartWay> ways_of(const RecordedStep& step, const std::vector<Aabb>& boxes) {
+std::vector<PartWay> ways_of(const DisassemblyStep& step, const std::vector<Aabb>& boxes) {
   std::vector<PartWay> ways;
   for (std::size_t k = 0; k < step.parts.size(); ++k) {
     std::vector<Pose> poses;
@@ -75,13 +43,12 @@ std::vector<PartWay> ways_of(const RecordedStep& step, const std::vector<Aabb>& 
 /// Asks the verifier only about pairs of parts whose boxes meet; most pairs of steps have none.
 class Needs {
  public:
-  Needs(const std::vector<RecordedStep>& steps, const Assembly& assembly, const Verifier& verifier)
-      : steps_(steps), verifier_(verifier), history_(history_of(steps, assembly.parts.size())) {
+  Needs(const Disassembly& done, const Assembly& assembly, const Verifier& verifier)
+      : done_(done), steps_(done.steps()), verifier_(verifier) {
     for (const Part& part : assembly.parts) boxes_.push_back(part.mesh->box());
-    for (std::size_t i = 0; i < steps.size(); ++i) {
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
       std::vector<Aabb>& begin = begins_.emplace_back();
-      for (std::size_t k = 0; k < steps[i].parts.size(); ++k)
-        begin.push_back(geometry::box_under(boxes_[steps[i].parts[k]], history_.poses[i][k]));
+      for (const PartId id : steps_[i].parts) begin.push_back(geometry::box_under(boxes_[id], done_.pose(id, i)));
     }
   }
 
@@ -91,30 +58,31 @@ class Needs {
   bool operator()(std::size_t b, const std::vector<PartWay>& ways, std::size_t a) const {
     const std::vector<PartId>&these = steps_[b].parts, &those = steps_[a].parts;
     for (const PartId id : these)
-      if (holds(those, id)) return true;
+      if (contains(those, id)) return true;
     // In different groups before a: its parts were not in the way of b.
-    if (history_.group(these.front(), a) != steps_[a].from) return false;
+    if (done_.group(these.front(), a) != done_.left_group(a)) return false;
     for (std::size_t k = 0; k < these.size(); ++k)
       for (std::size_t j = 0; j < those.size(); ++j)
         if (ways[k].box.overlaps(begins_[a][j]) &&
-            !verifier_.passes(these[k], those[j], history_.poses[a][j], ways[k].poses))
+            !verifier_.passes(these[k], those[j], done_.pose(those[j], a), ways[k].poses))
           return true;
     return false;
   }
 
  private:
-  const std::vector<RecordedStep>& steps_;
+  const Disassembly& done_;
+  const std::vector<DisassemblyStep>& steps_;
   const Verifier& verifier_;
-  History history_;
   std::vector<Aabb> boxes_;                // by part, in its own frame
   std::vector<std::vector<Aabb>> begins_;  // [step][k]: of its k-th part, where it stands just before
 };
 
 }  // namespace
 
-std::vector<std::vector<std::size_t>> needed_steps(const std::vector<RecordedStep>& steps, const Assembly& assembly,
+std::vector<std::vector<std::size_t>> needed_steps(const Disassembly& done, const Assembly& assembly,
                                                    const Verifier& verifier, const RunContext& context) {
-  const Needs needs(steps, assembly, verifier);
+  const Needs needs(done, assembly, verifier);
+  const std::vector<DisassemblyStep>& steps = done.steps();
   const std::size_t n = steps.size();
   std::vector<std::vector<std::size_t>> needed(n);
   std::vector<std::vector<bool>> follows(n, std::vector<bool>(n, false));  // [b][a]: a has to come before b
@@ -140,8 +108,9 @@ std::vector<unsigned> layers_of(const std::vector<std::vector<std::size_t>>& nee
   return layers;
 }
 
-std::vector<std::pair<PartId, PartId>> part_precedence(const std::vector<RecordedStep>& steps,
+std::vector<std::pair<PartId, PartId>> part_precedence(const Disassembly& done,
                                                        const std::vector<std::vector<std::size_t>>& needed) {
+  const std::vector<DisassemblyStep>& steps = done.steps();
   // A part leaves with its last removal; intermediate placements before that are part of it.
   std::map<PartId, std::size_t> leaves;
   for (std::size_t i = 0; i < steps.size(); ++i)

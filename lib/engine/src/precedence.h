@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "dismantle/assembly.h"
+#include "dismantle/disassembly.h"
 #include "dismantle/verification/verifier.h"
-#include "plan_builder.h"
 
 namespace dismantle {
 
@@ -16,14 +16,14 @@ namespace dismantle {
 /// may be done in either order or simultaneously; only the distance until the hulls are apart depends on the parts
 /// still present. [b]: the steps that it needs, ascending, without those implied by others. From the step at which
 /// `context` asks to stop, steps are taken to need all before them.
-std::vector<std::vector<std::size_t>> needed_steps(const std::vector<RecordedStep>& steps, const Assembly& assembly,
+std::vector<std::vector<std::size_t>> needed_steps(const Disassembly& done, const Assembly& assembly,
                                                    const Verifier& verifier, const RunContext& context);
 
 /// 1 for steps that need no other, else one more than the highest layer among those needed.
 std::vector<unsigned> layers_of(const std::vector<std::vector<std::size_t>>& needed);
 
 /// (a, b) for parts: b leaves in a step that needs the one in which a leaves. In the order of the steps.
-std::vector<std::pair<PartId, PartId>> part_precedence(const std::vector<RecordedStep>& steps,
+std::vector<std::pair<PartId, PartId>> part_precedence(const Disassembly& done,
                                                        const std::vector<std::vector<std::size_t>>& needed);
 
 }  // namespace dismantle

@@ -1,11 +1,10 @@
-// Planning: prepares, asks the sequence planner, records its removals.
+// Planning: prepares, asks the sequence planner, records its removals, and finds out the rest of the plan.
 #include "dismantle/engine/run.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <exception>
 #include <stdexcept>
 #include <utility>
@@ -14,13 +13,16 @@
 #include "deferred_simulator.h"
 #include "dismantle/errors.h"
 #include "dismantle/executor.h"
-#include "force_steps.h"
+#include "dismantle/part_set.h"
 #include "oracle.h"
-#include "plan_builder.h"
 #include "precedence.h"
+#include "reasons.h"
+#include "recorder.h"
+#include "replay.h"
 #include "rng_streams.h"
 #include "step_overlaps.h"
 #include "stopwatch.h"
+#include "to_plan.h"
 
 namespace dismantle {
 
@@ -32,18 +34,6 @@ Outcome why_stopped(const RunContext& context) {
   return context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
 }
 
-void check(const Assembly& assembly, const PlanningSetup& setup, const RunOptions& options) {
-  if (assembly.parts.empty()) throw InputError(assembly.source, "has no parts");
-  for (std::size_t i = 0; i < assembly.parts.size(); ++i)
-    if (assembly.parts[i].id != i || !assembly.parts[i].mesh)
-      throw std::invalid_argument("parts of an assembly are numbered by their place and have meshes");
-  if (!setup.simulator) throw std::invalid_argument("no simulator given");
-  if (!setup.path_planner) throw std::invalid_argument("no path planner given");
-  if (options.only_part.empty() && !setup.sequence_planner) throw std::invalid_argument("no sequence planner given");
-  if (options.only_part.empty() && !options.constraints.empty() && !setup.sequence_planner->keeps_constraints())
-    throw std::invalid_argument("there are constraints, and the sequence planner does not say that it keeps them");
-}
-
 PartId part_named(const Assembly& assembly, const std::string& name) {
   for (const auto& part : assembly.parts)
     if (part.name == name) return part.id;
@@ -52,45 +42,33 @@ PartId part_named(const Assembly& assembly, const std::string& name) {
   throw InputError(assembly.source, fmt::format("has no part '{}'; its parts are {}", name, names));
 }
 
-/// Records each removal as it comes and passes on the plan so far.
-class RemovalRecorder final : public SequenceObserver {
- public:
-  RemovalRecorder(PlanBuilder& builder, const std::function<void(const Plan&)>& on_step, const RunContext& context)
-      : builder_(builder), on_step_(on_step), context_(context) {}
+void check(const Assembly& assembly, const PlanningSetup& setup, const RunOptions& options) {
+  if (assembly.parts.empty()) throw InputError(assembly.source, "has no parts");
+  for (std::size_t i = 0; i < assembly.parts.size(); ++i)
+    if (assembly.parts[i].id != i || !assembly.parts[i].mesh)
+      throw std::invalid_argument("parts of an assembly are numbered by their place and have meshes");
+  if (!setup.simulator) throw std::invalid_argument("no simulator given");
+  if (!setup.path_planner) throw std::invalid_argument("no path planner given");
+  if (setup.transfer_planner && options.layout.enabled)
+    for (const auto& entry : options.layout.poses) part_named(assembly, entry.first);
+  if (!options.only_part.empty()) return;
+  if (!setup.sequence_planner) throw std::invalid_argument("no sequence planner given");
+  const SequencePlannerTraits traits = setup.sequence_planner->traits();
+  if (!options.constraints.empty() && !traits.keeps_constraints)
+    throw std::invalid_argument("there are constraints, and the sequence planner does not say that it keeps them");
+  if ((options.resume || !options.start.empty()) && !traits.any_start)
+    throw std::invalid_argument("the sequence planner does not say that it starts from any arrangement of the parts");
+  if (options.resume && !options.start.empty()) throw std::invalid_argument("a run has one start");
+}
 
-  /// Throws std::logic_error for an invalid removal, which stops the sequence planner.
-  void removed(const Removal& removal, std::size_t /*parts_left*/) override {
-    if (!problem_.empty()) throw std::logic_error(problem_);  // the planner ignored an earlier error
-    try {
-      builder_.record(removal);
-    } catch (const std::logic_error& e) {
-      problem_ = e.what();
-      throw;
-    }
-    if (!on_step_) return;
-    try {
-      on_step_(builder_.plan());
-    } catch (const std::exception& e) {  // the run continues; the next step tries again
-      context_.log(LogLevel::error, fmt::format("the plan so far could not be passed on: {}", e.what()));
-    }
-  }
-  const std::string& problem() const { return problem_; }
-
- private:
-  PlanBuilder& builder_;
-  const std::function<void(const Plan&)>& on_step_;
-  const RunContext& context_;
-  std::string problem_;
-};
-
-SequenceResult plan_sequence(const Assembly& assembly, SequencePlanner& planner, Oracle& oracle,
-                             RemovalRecorder& recorder, const RunContext& context) {
+SequenceResult plan_sequence(const SequenceQuery& query, SequencePlanner& planner, Oracle& oracle, Recorder& recorder,
+                             const RunContext& context) {
   RunContext own = context;
   own.rng = context.rng.fork(sequence_stream);
   SequenceResult result;
   std::string problem;
   try {
-    result = planner.plan(assembly, oracle, recorder, own);
+    result = planner.plan(query, oracle, recorder, own);
     problem = recorder.problem();
   } catch (const std::exception& e) {
     problem = e.what();
@@ -105,10 +83,9 @@ SequenceResult plan_sequence(const Assembly& assembly, SequencePlanner& planner,
   return result;
 }
 
-SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, RemovalRecorder& recorder,
+SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, Recorder& recorder,
                         RunContext context) {
-  Attempt attempt;
-  for (const auto& p : assembly.parts) (p.id == part ? attempt.moving : attempt.fixed).push_back({p.id, Pose{}});
+  Attempt attempt{recorder.disassembly().placed(std::vector{part}), recorder.disassembly().around(part)};
   SequenceResult result;
   if (attempt.fixed.empty()) {
     result.outcome = Outcome::start_is_goal;
@@ -128,38 +105,15 @@ SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, R
   return result;
 }
 
-/// Tries proofs for remaining parts that have none, independent of the planners used. A proof explains more than the
-/// message of a search does.
-void prove_left(std::vector<Unsolved>& unsolved, const PlanBuilder& builder, Oracle& oracle,
-                const ProofOptions& options, const RunContext& context) {
-  std::size_t asked = 0;
-  for (Unsolved& u : unsolved) {
-    const bool open =
-        u.certificate == nullptr && !context.should_stop() && asked < options.final_parts &&
-        (u.outcome == Outcome::depth_limit || u.outcome == Outcome::exhausted || u.outcome == Outcome::timeout);
-    if (open) {
-      ++asked;
-      std::vector<PartId> group{u.part};
-      for (const PlacedPart& other : builder.around(u.part)) group.push_back(other.part);
-      u.certificate = oracle.proofs().at_last(u.part, u.blocked_by, group, context);
-    }
-    if (u.certificate == nullptr) continue;
-    if (u.certificate->full_tolerance) u.outcome = Outcome::infeasible;
-    u.message = u.certificate->text;
-    u.blocked_by = u.certificate->parts;
-    std::erase(u.blocked_by, u.part);
-  }
-}
-
 /// Contacts of a remaining part with others at its best pose, from the simulator.
-ContactsOf contacts_of(const Assembly& assembly, const DeferredSimulator& simulator, const PlanBuilder& builder,
+ContactsOf contacts_of(const Assembly& assembly, const DeferredSimulator& simulator, const Disassembly& disassembly,
                        const RunContext& context) {
   if (!simulator.capabilities().contacts) return {};
   return [&](PartId part, const Pose& at) {
     std::vector<Contact> deepest;
     if (context.should_stop()) return deepest;
     try {
-      const Scene scene{{{part, at}}, builder.around(part)};
+      const Scene scene{{{part, at}}, disassembly.around(part)};
       const std::unique_ptr<World> world = simulator.world(assembly, PreparedAssembly{}, scene, MotionSpace::rigid);
       std::vector<Contact> all;
       world->contacts(world->initial_state(), all);
@@ -177,123 +131,135 @@ ContactsOf contacts_of(const Assembly& assembly, const DeferredSimulator& simula
   };
 }
 
-/// The sequence planner's reasons for the remaining parts, completed, without impossible claims.
-std::vector<Unsolved> reasons(const SequenceResult& said, const std::vector<PartId>& left) {
-  const auto is_left = [&left](PartId id) { return std::find(left.begin(), left.end(), id) != left.end(); };
-  std::vector<Unsolved> result;
-  for (const auto& u : said.unsolved)
-    if (is_left(u.part)) result.push_back(u);
-  for (const PartId id : left) {
-    const auto same = [id](const Unsolved& u) { return u.part == id; };
-    if (std::any_of(result.begin(), result.end(), same)) continue;
-    const bool planned = said.outcome != Outcome::cancelled && said.outcome != Outcome::timeout;
-    result.push_back({id,
-                      is_success(said.outcome) ? Outcome::crashed : said.outcome,
-                      {},
-                      {},
-                      planned ? "the sequence planner gave no reason" : "not tried: the run was stopped before"});
+/// One run, from the question to the plan.
+class Run {
+ public:
+  Run(const Assembly& assembly, const PlanningSetup& setup, const RunOptions& options, const RunContext& context,
+      const StepObserver& on_step)
+      : assembly_(assembly),
+        setup_(setup),
+        options_(options),
+        context_(context),
+        simulator_(*setup.simulator, assembly, options.verify.max_penetration, context),
+        verifier_(assembly, options.verify, context),
+        oracle_(assembly, nothing_, setup, &simulator_, options, verifier_, context),
+        recorder_(assembly, oracle_, setup, options, on_step, context) {}
+
+  RunResult operator()() {
+    const Clock::time_point begin = Clock::now();
+    plan_steps();
+    simulator_.rethrow_failure();
+    if (simulator_.was_stopped()) sequence_.outcome = why_stopped(context_);
+    RunResult result;
+    result.plan = plan_of(recorder_.disassembly(), assembly_, options_);
+    result.outcome = sequence_.outcome;
+    explain(result);
+    complete(result);
+    result.disassembly = recorder_.disassembly();
+    result.counts = oracle_.counts();
+    result.planner_counts = oracle_.planner_counts();
+    result.sequence_counts = sequence_.counts;
+    simulator_.rethrow_failure();  // failure during a transfer
+    result.prepare_seconds = simulator_.seconds();
+    result.plan_seconds = seconds_since(begin) - result.prepare_seconds;
+    result.proof_seconds = oracle_.proof_seconds();
+    return result;
   }
-  for (auto& u : result) {
-    std::erase_if(u.blocked_by, [&](PartId id) { return !is_left(id); });
-    const auto is_about = [&](const Certificate& c) {
-      return std::find(c.parts.begin(), c.parts.end(), u.part) != c.parts.end();
+
+ private:
+  bool only_one() const { return !options_.only_part.empty(); }
+
+  void plan_steps() {
+    if (options_.resume) replay(*options_.resume, assembly_, oracle_, recorder_, context_);
+    const SequenceQuery query{assembly_, open_groups(recorder_.disassembly(), options_.constraints),
+                              options_.constraints, setup_.objective};
+    if (context_.should_stop())
+      sequence_.outcome = why_stopped(context_);
+    else if (only_one())
+      sequence_ = plan_one(assembly_, part_named(assembly_, options_.only_part), oracle_, recorder_, context_);
+    else if (query.start.empty())
+      sequence_.outcome = Outcome::solved;
+    else
+      sequence_ = plan_sequence(query, *setup_.sequence_planner, oracle_, recorder_, context_);
+  }
+
+  /// States why parts are left.
+  void explain(RunResult& result) {
+    const Disassembly& done = recorder_.disassembly();
+    const ContactsOf places = contacts_of(assembly_, simulator_, done, context_);
+    std::vector<Unsolved> unsolved = sequence_.unsolved;
+    if (!only_one()) {
+      const auto left = open_groups(done, options_.constraints);
+      if (left.empty()) {
+        unsolved.clear();
+        if (result.plan.forced_steps() == 0) result.outcome = Outcome::solved;
+      } else {
+        if (is_success(sequence_.outcome)) {
+          result.outcome = Outcome::crashed;
+          std::size_t together = 0;
+          for (const auto& group : left) together += group.size();
+          context_.log(LogLevel::error,
+                       fmt::format("the sequence planner reports success with {} parts still together", together));
+        }
+        unsolved = reasons_of(sequence_, left);
+        prove_left(unsolved, left, oracle_.proofs(), options_.proofs, context_);
+      }
+    }
+    set_unsolved(result.plan, unsolved, assembly_, done, oracle_, places);
+    state_proofs(result.plan, sequence_.proofs, assembly_);
+  }
+
+  /// Finds what the plan says beyond its steps: their order, their overlaps, and how the assembly is put together.
+  void complete(RunResult& result) {
+    const Disassembly& done = recorder_.disassembly();
+    AssemblyPlan back;
+    const bool puts_together = setup_.transfer_planner && options_.layout.enabled && !done.steps().empty();
+    const auto put_together = [&] {
+      if (!puts_together) return;
+      RunContext putting = context_;
+      putting.rng = Rng(options_.seed).fork(transfer_stream);
+      back = Assembler(assembly_, simulator_, setup_, options_, verifier_)
+                 .put_together(done, result.plan.disassembly, putting);
     };
-    if (u.certificate != nullptr && !is_about(*u.certificate)) u.certificate = nullptr;
-    // A claim without a certificate cannot be checked.
-    if (u.outcome == Outcome::infeasible && (u.certificate == nullptr || !u.certificate->full_tolerance))
-      u.outcome = Outcome::exhausted;
+    std::vector<std::vector<std::size_t>> needed;
+    const auto find_needed = [&] { needed = needed_steps(done, assembly_, verifier_, context_); };
+    // The two are independent.
+    parallel_for(
+        2, context_.executor.get(), [&](std::size_t k) { k == 0 ? put_together() : find_needed(); },
+        [] { return false; });
+    set_needed(result.plan, needed);
+    auto overlaps = step_overlaps(done, assembly_, verifier_, options_.named_overlap, context_);
+    for (std::size_t i = 0; i < overlaps.size(); ++i) result.plan.disassembly[i].overlaps = std::move(overlaps[i]);
+    for (const auto& [a, b] : part_precedence(done, needed))
+      result.precedence.emplace_back(assembly_.parts[a].name, assembly_.parts[b].name);
+    if (!puts_together) return;
+    result.plan.assembly_steps = std::move(back.steps);
+    result.plan.assembly_status = back.status;
+    result.plan.assembly_message = std::move(back.message);
   }
-  return result;
-}
+
+  const Assembly& assembly_;
+  const PlanningSetup& setup_;
+  const RunOptions& options_;
+  RunContext context_;
+  const PreparedAssembly nothing_;  // the simulator prepares by itself
+  const DeferredSimulator simulator_;
+  const Verifier verifier_;
+  Oracle oracle_;
+  Recorder recorder_;
+  SequenceResult sequence_;
+};
 
 }  // namespace
 
 RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOptions& options, RunContext& context,
-              const std::function<void(const Plan&)>& on_step) {
+              const StepObserver& on_step) {
   check(assembly, setup, options);
-  const bool only_one = !options.only_part.empty();
-  const PartId part = only_one ? part_named(assembly, options.only_part) : 0;
-  if (setup.transfer_planner && options.layout.enabled)
-    for (const auto& entry : options.layout.poses) part_named(assembly, entry.first);
   RunContext own = context;
   own.rng = Rng(options.seed);
-  const bool forces = options.force.when == ForceWhen::last_resort && !only_one;
-  if (const double left = context.deadline.seconds_left(); forces && std::isfinite(left))
-    own.deadline = Deadline::after_seconds((1 - options.force.share) * left);
   if (own.threads > 1 && !own.executor) own.executor = std::make_shared<Executor>(own.threads);
-
-  RunResult result;
-  const Clock::time_point begin = Clock::now();
-  const DeferredSimulator simulator(*setup.simulator, assembly, options.verify.max_penetration, own);
-  RunContext whole = own;  // forced steps need the verifier, too
-  whole.deadline = context.deadline;
-  const Verifier verifier(assembly, options.verify, whole);
-  const PreparedAssembly nothing;
-  if (only_one) own.threads = 1;  // there are no speculative questions, and the planner's progress is shown
-  Oracle oracle(assembly, nothing, setup, &simulator, options, verifier, own);
-  PlanBuilder builder(assembly, oracle, options, setup.path_planner_id);
-  RemovalRecorder recorder(builder, on_step, own);
-  SequenceResult sequence;
-  if (own.should_stop())
-    sequence.outcome = why_stopped(own);
-  else if (only_one)
-    sequence = plan_one(assembly, part, oracle, recorder, own);
-  else
-    sequence = plan_sequence(assembly, *setup.sequence_planner, oracle, recorder, own);
-  simulator.rethrow_failure();
-  if (simulator.was_stopped()) sequence.outcome = why_stopped(own);
-
-  const ContactsOf places = contacts_of(assembly, simulator, builder, own);
-  result.outcome = sequence.outcome;
-  result.sequence_counts = sequence.counts;
-  if (only_one) {
-    builder.set_unsolved(sequence.unsolved, places);
-  } else if (builder.fulfilled()) {
-    result.outcome = Outcome::solved;
-  } else {
-    if (is_success(sequence.outcome)) {
-      result.outcome = Outcome::crashed;
-      own.log(LogLevel::error,
-              fmt::format("the sequence planner reports success with {} parts still together", builder.left().size()));
-    }
-    std::vector<Unsolved> unsolved = reasons(sequence, builder.left());
-    prove_left(unsolved, builder, oracle, options.proofs, own);
-    builder.set_unsolved(unsolved, places);
-    own.deadline = context.deadline;
-    if (forces && result.outcome != Outcome::crashed && !own.cancel.cancelled()) {
-      ForceSteps(assembly, verifier, oracle, builder, *setup.sequence_planner, recorder, options).run(own);
-      simulator.rethrow_failure();
-      if (builder.fulfilled() && builder.forced() == 0) result.outcome = Outcome::solved;
-      builder.drop_solved();
-    }
-  }
-  AssemblyPlan back;
-  const bool puts_together = setup.transfer_planner && options.layout.enabled && !builder.recorded().empty();
-  const auto put_together = [&] {
-    if (!puts_together) return;
-    RunContext putting = own;
-    putting.rng = Rng(options.seed).fork(transfer_stream);
-    back = Assembler(assembly, simulator, setup, options, verifier)
-               .put_together(builder.recorded(), builder.plan().disassembly, putting);
-  };
-  std::vector<std::vector<std::size_t>> needed;
-  const auto find_needed = [&] { needed = needed_steps(builder.recorded(), assembly, verifier, own); };
-  // The two are independent.
-  parallel_for(
-      2, own.executor.get(), [&](std::size_t k) { k == 0 ? put_together() : find_needed(); }, [] { return false; });
-  builder.set_needed(needed);
-  builder.set_overlaps(step_overlaps(builder.recorded(), assembly, verifier, options.named_overlap, own));
-  for (const auto& [a, b] : part_precedence(builder.recorded(), needed))
-    result.precedence.emplace_back(assembly.parts[a].name, assembly.parts[b].name);
-  if (puts_together) builder.set_assembly(std::move(back.steps), back.status, std::move(back.message));
-  result.plan = builder.plan();
-  result.counts = oracle.counts();
-  result.planner_counts = oracle.planner_counts();
-  simulator.rethrow_failure();  // failure during a transfer
-  result.prepare_seconds = simulator.seconds();
-  result.plan_seconds = seconds_since(begin) - result.prepare_seconds;
-  result.proof_seconds = oracle.proof_seconds();
-  return result;
+  if (!options.only_part.empty()) own.threads = 1;  // no speculative questions, and the planner's progress is shown
+  return Run(assembly, setup, options, own, on_step)();
 }
 
 }  // namespace dismantle

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "dismantle/part_set.h"
 #include "dismantle/verification/motion_depth.h"
 
 namespace dismantle {
 
-std::vector<std::vector<PlanStepOverlap>> step_overlaps(const std::vector<RecordedStep>& steps,
+std::vector<std::vector<PlanStepOverlap>> step_overlaps(const Disassembly& done,
                                                         const Assembly& assembly, const Verifier& verifier,
                                                         double least, const RunContext& context) {
+  const std::vector<DisassemblyStep>& steps = done.steps();
   std::vector<std::vector<PlanStepOverlap>> all(steps.size());
   std::vector<const InitialOverlap*> deep;
   for (const InitialOverlap& o : assembly.overlaps)
@@ -18,10 +20,8 @@ std::vector<std::vector<PlanStepOverlap>> step_overlaps(const std::vector<Record
 
   const double scale = assembly.normalization.scale;
   MotionDepthMeter meter(assembly, verifier);
-  std::vector<Pose> poses(assembly.parts.size());
-  std::vector<std::size_t> group(assembly.parts.size(), 0);
   for (std::size_t k = 0; k < steps.size(); ++k) {
-    const RecordedStep& step = steps[k];
+    const DisassemblyStep& step = steps[k];
     if (context.should_stop()) return all;
     for (std::size_t i = 0; i < step.parts.size(); ++i) {
       const PartId part = step.parts[i];
@@ -30,11 +30,10 @@ std::vector<std::vector<PlanStepOverlap>> step_overlaps(const std::vector<Record
       for (const InitialOverlap* o : deep) {
         if (o->a != part && o->b != part) continue;
         const PartId other = o->a == part ? o->b : o->a;
-        const bool moves_along = std::find(step.parts.begin(), step.parts.end(), other) != step.parts.end();
-        if (moves_along || group[other] != step.from) continue;
+        if (contains(step.parts, other) || done.group(other, k) != done.left_group(k)) continue;
         MotionDepthOptions options;
         options.at_most = o->allowed() + verifier.options().max_penetration;  // the step has been verified
-        const auto found = meter.deepest({part}, {{other, poses[other]}}, column, options, context, true);
+        const auto found = meter.deepest({part}, {{other, done.pose(other, k)}}, column, options, context, true);
         if (!found || found->depth <= 0) continue;
         const Normalization& to = assembly.normalization;
         PlanStepOverlap used{assembly.parts[part].name,
@@ -48,10 +47,6 @@ std::vector<std::vector<PlanStepOverlap>> step_overlaps(const std::vector<Record
           used.region = Aabb{to.to_input(region->lo), to.to_input(region->hi)};
         all[k].push_back(std::move(used));
       }
-    }
-    for (std::size_t i = 0; i < step.parts.size(); ++i) {
-      poses[step.parts[i]] = step.path->back()[i];
-      if (step.leaves(step.parts[i])) group[step.parts[i]] = k + 1;
     }
   }
   return all;

@@ -3,16 +3,16 @@
 
 #include <vector>
 
+#include "dismantle/disassembly.h"
 #include "dismantle/plan.h"
 #include "dismantle/verification/verifier.h"
-#include "plan_builder.h"
 
 namespace dismantle {
 
 /// [k]: the pairs that step k moves relative to each other and that may overlap by more than `least` (assembly units),
 /// with their largest depth along the step. Empty from the step at which `context` asks to stop.
-std::vector<std::vector<PlanStepOverlap>> step_overlaps(const std::vector<RecordedStep>& steps,
-                                                        const Assembly& assembly, const Verifier& verifier,
-                                                        double least, const RunContext& context);
+std::vector<std::vector<PlanStepOverlap>> step_overlaps(const Disassembly& done, const Assembly& assembly,
+                                                        const Verifier& verifier, double least,
+                                                        const RunContext& context);
 
 }  // namespace dismantle

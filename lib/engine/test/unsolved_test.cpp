@@ -125,7 +125,7 @@ TEST(Unsolved, ASimulatorThatFailsCostsThePlacesOnly) {
 
 TEST(Unsolved, ThePlanBeforeTheFirstStepHasEveryPart) {
   const Assembly assembly = fake::tube_with_blocks(3);
-  const Plan plan = plan_before_first_step(assembly, RunOptions{});
+  const Plan plan = plan_of(Disassembly(assembly.parts.size()), assembly, RunOptions{});
   EXPECT_EQ(plan.status, PlanStatus::partial);
   EXPECT_TRUE(plan.disassembly.empty());
   EXPECT_EQ(plan.remaining.size(), assembly.parts.size());

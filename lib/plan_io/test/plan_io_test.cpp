@@ -8,7 +8,6 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/plan.h"
-#include "dismantle/plan_io/catch_up.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/run_context.h"
 
@@ -346,40 +345,6 @@ TEST(PlanIo, NoTextDoesWorseThanAnInputError) {
   EXPECT_THROW(plan_from_json(std::string(200'000, '['), "p"), InputError);
   EXPECT_THROW(plan_from_json("", "p"), InputError);
   EXPECT_THROW(plan_from_json("null", "p"), InputError);
-}
-
-/// As a run goes on: steps are added, the last one is replaced by a longer one, the rest of the plan changes.
-TEST(CatchUp, MakesTheCopyEqual) {
-  Rng rng(29);
-  for (int trial = 0; trial < 200; ++trial) {
-    Plan now = any_plan(rng);
-    now.disassembly.clear();
-    now.assembly_steps.clear();
-    Plan known = now;
-    for (int change = 0; change < 12; ++change) {
-      for (std::uint64_t added = rng.below(3); added > 0; --added) {  // the run may add several before it is asked
-        const Plan other = any_plan(rng);
-        const bool replaces = rng.below(4) == 0 && !now.disassembly.empty() && added == 1 &&
-                              known.disassembly.size() == now.disassembly.size();
-        if (replaces) {
-          now.disassembly.pop_back();
-          now.assembly_steps.erase(now.assembly_steps.begin());
-        }
-        now.disassembly.insert(now.disassembly.end(), other.disassembly.begin(), other.disassembly.end());
-        for (const PlanStep& step : other.disassembly) now.assembly_steps.insert(now.assembly_steps.begin(), step);
-        now.status = other.status;
-        now.remaining = other.remaining;
-        now.unsolved = other.unsolved;
-        now.certificates = other.certificates;
-        now.assembly_message = other.assembly_message;
-        now.assembly_status = other.assembly_status;
-      }
-      for (std::size_t i = 0; i < now.disassembly.size(); ++i)
-        now.disassembly[i].step = now.assembly_steps[i].step = static_cast<unsigned>(i) + 1;
-      catch_up(known, now);
-      ASSERT_EQ(to_json(known), to_json(now)) << trial;
-    }
-  }
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include "blocking/blocking.h"
 
-#include "blocking/disassembly.h"
+#include "blocking/run.h"
 
 namespace dismantle {
 
-SequenceResult Blocking::plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+SequenceResult Blocking::plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                               RunContext& context) {
-  return blocking::Disassembly(params_, assembly, oracle, observer, context).run();
+  return blocking::Run(params_, query, oracle, observer, context).run();
 }
 
 }  // namespace dismantle

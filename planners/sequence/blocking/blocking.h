@@ -9,8 +9,10 @@ namespace dismantle {
 class Blocking final : public SequencePlanner {
  public:
   explicit Blocking(const BlockingParams& params) : params_(params) {}
-  bool keeps_constraints() const noexcept override { return true; }
-  SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+  SequencePlannerTraits traits() const noexcept override {
+    return {.keeps_constraints = true, .any_start = true};
+  }
+  SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override;
 
  private:

@@ -1,9 +1,7 @@
 #include "blocking_graph/pair_sweep.h"
 
-#include <optional>
-
-#include "dismantle/geometry/hull.h"
 #include "dismantle/geometry/pair_check.h"
+#include "dismantle/geometry/part_data.h"
 
 namespace dismantle::blocking {
 
@@ -16,17 +14,11 @@ PairSweep::PairSweep(const Assembly& assembly, PathOracle& oracle)
 }
 
 const std::vector<geometry::Solid>& PairSweep::solids(PartId part) const {
-  return *memo_.get<std::vector<geometry::Solid>>("solids", part, RunContext{}, [&] {
-    std::vector<geometry::Solid> solids = geometry::split_into_solids(*assembly_.parts.at(part).mesh);
-    // Where a part is thinner than a few tolerances, less penetration is allowed (see geometry::Solid).
-    for (geometry::Solid& solid : solids) solid.measure_thickness(4 * tolerance_);
-    return std::optional(std::move(solids));
-  });
+  return geometry::solids_of(assembly_, part, memo_, tolerance_);
 }
 
 const std::vector<Eigen::Vector3d>& PairSweep::hull(PartId part) const {
-  return *memo_.get<std::vector<Eigen::Vector3d>>(
-      "hull", part, RunContext{}, [&] { return std::optional(hull_corners(assembly_.parts.at(part).mesh->vertices)); });
+  return geometry::hull_of(assembly_, part, memo_);
 }
 
 bool PairSweep::passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& path) const {

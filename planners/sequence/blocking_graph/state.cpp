@@ -1,7 +1,6 @@
 #include "blocking_graph/state.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace dismantle::blocking {
 namespace {
@@ -10,65 +9,59 @@ const auto none = std::numeric_limits<SubassemblyId>::max();
 
 bool holds(const Subassemblies& ids, SubassemblyId id) { return std::find(ids.begin(), ids.end(), id) != ids.end(); }
 
-/// By part: the representative of the set that constraints keep together. Lists that share a part form one set.
-std::vector<PartId> sets_kept_together(const Assembly& assembly, const Constraints& constraints) {
-  std::vector<PartId> set(assembly.parts.size());
-  std::iota(set.begin(), set.end(), PartId{0});
-  for (const auto& list : constraints.together)
-    for (const PartId id : list) {
-      const PartId from = set[id], to = set[list.front()];
-      std::replace(set.begin(), set.end(), from, to);
-    }
-  return set;
-}
-
 }  // namespace
 
 bool GroupState::contains(SubassemblyId member) const { return holds(members, member); }
 
-DisassemblyState::DisassemblyState(const Assembly& assembly, const Constraints& constraints,
-                                   const InseparablePairs& inseparable, PartOrder order, SequenceObserver& observer,
-                                   RunContext& context)
-    : assembly_(assembly),
-      constraints_(constraints),
+DisassemblyState::DisassemblyState(const SequenceQuery& query, const InseparablePairs& inseparable, PartOrder order,
+                                   SequenceObserver& observer, RunContext& context)
+    : assembly_(query.assembly),
+      constraints_(query.constraints),
       observer_(observer),
       context_(context),
-      of_part_(assembly.parts.size(), none),
-      inseparable_(assembly.parts.size()),
-      poses_(assembly.parts.size()),
-      orientation_(assembly.parts.size(), 0) {
+      of_part_(assembly_.parts.size(), none),
+      inseparable_(assembly_.parts.size()),
+      poses_(assembly_.parts.size()),
+      orientation_(assembly_.parts.size(), 0) {
+  std::vector<std::size_t> group_of(assembly_.parts.size(), none);
+  for (std::size_t g = 0; g < query.start.size(); ++g)
+    for (const PlacedPart& p : query.start[g]) {
+      group_of[p.part] = g;
+      set_pose(p.part, p.pose);
+    }
   // Parts that a constraint keeps together anyway need no proof in the report.
-  std::vector<PartId> merged = sets_kept_together(assembly, constraints);
+  std::vector<PartId> merged = kept_sets(assembly_.parts.size(), constraints_);
   for (const auto& [a, b] : inseparable) {
     if (merged[a] != merged[b]) inseparable_[a] = inseparable_[b] = true;
     const PartId from = merged[a], to = merged[b];
     std::replace(merged.begin(), merged.end(), from, to);
   }
   // A subassembly is tried when the last of its parts in this order would be.
-  const std::vector<PartId> by_order = ordered_parts(assembly, order);
-  Subassemblies of_root(assembly.parts.size(), none);
+  const std::vector<PartId> by_order = ordered_parts(assembly_, order);
+  std::map<std::pair<PartId, std::size_t>, SubassemblyId> of_root;  // by representative and group
   for (auto id = by_order.rbegin(); id != by_order.rend(); ++id) {
-    SubassemblyId& subassembly = of_root[merged[*id]];
-    if (subassembly == none) {
-      subassembly = parts_.size();
-      parts_.emplace_back();
-    }
-    parts_[subassembly].push_back(*id);
+    if (group_of[*id] == none) continue;
+    const auto [subassembly, is_new] = of_root.try_emplace({merged[*id], group_of[*id]}, parts_.size());
+    if (is_new) parts_.emplace_back();
+    parts_[subassembly->second].push_back(*id);
   }
   std::reverse(parts_.begin(), parts_.end());
   // Inseparable subassemblies come last, so that the others are removed from them.
   std::stable_partition(parts_.begin(), parts_.end(), [&](const auto& parts) {
     return std::none_of(parts.begin(), parts.end(), [&](PartId id) { return inseparable_[id]; });
   });
-  GroupState all;
+  waiting_.resize(query.start.size());
   for (SubassemblyId s = 0; s < parts_.size(); ++s) {
-    all.members.push_back(s);
+    waiting_[group_of[parts_[s].front()]].members.push_back(s);
     for (const PartId id : parts_[s]) of_part_[id] = s;
     std::sort(parts_[s].begin(), parts_[s].end());
+    parts_left_ += parts_[s].size();
   }
-  all.initial = true;
-  all.id = groups_++;
-  waiting_.push_back(std::move(all));
+  for (GroupState& group : waiting_) {
+    group.initial = groups_ == 0;
+    group.id = groups_++;
+    most_separations_ += group.members.size() - 1;
+  }
 }
 
 std::vector<PartId> DisassemblyState::parts_of(const Subassemblies& ids) const {
@@ -76,10 +69,6 @@ std::vector<PartId> DisassemblyState::parts_of(const Subassemblies& ids) const {
   for (const SubassemblyId s : ids) parts.insert(parts.end(), parts_[s].begin(), parts_[s].end());
   std::sort(parts.begin(), parts.end());
   return parts;
-}
-
-bool DisassemblyState::is_base(PartId part) const {
-  return std::find(constraints_.base.begin(), constraints_.base.end(), part) != constraints_.base.end();
 }
 
 bool DisassemblyState::is_inseparable(SubassemblyId id) const {
@@ -132,14 +121,13 @@ void DisassemblyState::commit(GroupState& group, const Subassemblies& ids, const
   Removal removal;
   for (std::size_t i = 0; i < attempt.moving.size(); ++i) {
     removal.parts.push_back(attempt.moving[i].part);
-    set_pose(attempt.moving[i].part, answer.result.path()->poses().back()[i]);
+    set_pose(attempt.moving[i].part, answer.path().back()[i]);
   }
   removal.attempt = &answer;
   removals_.push_back(removal);
   for (GroupListener* listener : listeners_) listener->on_group_changed(group, {kind, ids});
-  const std::size_t parts = assembly_.parts.size();
   if (attempt.goal.placement) {
-    observer_.removed(removals_.back(), parts - separations_);
+    observer_.removed(removals_.back(), parts_left_ - separations_);
     return;
   }
   const Subassemblies out = answer.out ? Subassemblies{of_part_[*answer.out]} : ids;
@@ -157,7 +145,7 @@ void DisassemblyState::commit(GroupState& group, const Subassemblies& ids, const
     target_removed_ = target_removed_ ||
                       (out.size() == 1 ? target == out[0] : group.members.size() == 1 && group.members[0] == target);
   }
-  observer_.removed(removals_.back(), parts - separations_);
+  observer_.removed(removals_.back(), parts_left_ - separations_);
   show_progress(removal.parts.front());
 }
 
@@ -167,7 +155,7 @@ bool DisassemblyState::stop() {
 }
 
 void DisassemblyState::show_progress(PartId part) const {
-  context_.progress("sequence", separations_, parts_.size() - 1, assembly_.parts[part].name);
+  context_.progress("sequence", separations_, most_separations_, assembly_.parts[part].name);
 }
 
 const Unsolved* DisassemblyState::failure_of(PartId part) const {

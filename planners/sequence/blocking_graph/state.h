@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "blocking_graph/orientations.h"
+#include "dismantle/part_set.h"
 #include "dismantle/sequence_planner.h"
 #include "one_by_one/one_by_one.h"
 
@@ -21,7 +22,7 @@ namespace dismantle::blocking {
 using SubassemblyId = std::size_t;
 using Subassemblies = std::vector<SubassemblyId>;
 
-/// Subassemblies that have not been separated from each other. A run begins with one group of all of them; each removal
+/// Subassemblies that have not been separated from each other. A run begins with the groups of its start; each removal
 /// splits a group in two. `members`, `id` and `initial` define the group. The rest is progress of searches that more
 /// than one strategy uses; data of a single strategy is in a PerGroup of that strategy.
 struct GroupState {
@@ -88,8 +89,8 @@ using InseparablePairs = std::vector<std::pair<PartId, PartId>>;
 class DisassemblyState {
  public:
   /// All references must outlive this.
-  DisassemblyState(const Assembly& assembly, const Constraints& constraints, const InseparablePairs& inseparable,
-                   PartOrder order, SequenceObserver& observer, RunContext& context);
+  DisassemblyState(const SequenceQuery& query, const InseparablePairs& inseparable, PartOrder order,
+                   SequenceObserver& observer, RunContext& context);
 
   const Assembly& assembly() const { return assembly_; }
   const Constraints& constraints() const { return constraints_; }
@@ -104,7 +105,7 @@ class DisassemblyState {
   /// Its only part, or the first.
   PartId part_of(SubassemblyId id) const { return parts_[id].front(); }
   SubassemblyId subassembly_of(PartId part) const { return of_part_[part]; }
-  bool is_base(PartId part) const;
+  bool is_base(PartId part) const { return contains(constraints_.base, part); }
   /// Is a part of it proved inseparable from another?
   bool is_inseparable(SubassemblyId id) const;
   bool is_inseparable(PartId part) const { return inseparable_[part]; }
@@ -165,7 +166,9 @@ class DisassemblyState {
   std::size_t groups_ = 0;  // made so far
   std::vector<GroupListener*> listeners_;
   std::vector<Removal> removals_;
-  std::size_t separations_ = 0;  // removals that split a group; one less than subassemblies when all are apart
+  std::size_t separations_ = 0;       // removals that split a group
+  std::size_t most_separations_ = 0;  // when all are apart
+  std::size_t parts_left_ = 0;        // that have not left a group
   std::map<PartId, Unsolved> failures_;
   std::map<std::string, double> counts_;
   bool interrupted_ = false, target_removed_ = false;

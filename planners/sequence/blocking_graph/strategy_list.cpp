@@ -5,11 +5,16 @@
 
 namespace dismantle::blocking {
 
-InseparablePairs overlap_locks(const Assembly& assembly, PathOracle& oracle, const RunContext& context) {
+InseparablePairs overlap_locks(const SequenceQuery& query, PathOracle& oracle, const RunContext& context) {
   InseparablePairs pairs;
-  for (const InitialOverlap& overlap : assembly.overlaps)
+  std::vector<std::size_t> group(query.assembly.parts.size(), query.start.size());
+  for (std::size_t g = 0; g < query.start.size(); ++g)
+    for (const PlacedPart& p : query.start[g]) group[p.part] = g;
+  for (const InitialOverlap& overlap : query.assembly.overlaps) {
+    if (group[overlap.a] != group[overlap.b] || group[overlap.a] == query.start.size()) continue;
     if (const Certificate* lock = oracle.prove({{overlap.a, overlap.b}, ProofEffort::trivial, 1}, context))
       pairs.emplace_back(lock->parts[0], lock->parts[1]);
+  }
   return pairs;
 }
 

@@ -10,7 +10,7 @@
 namespace dismantle::blocking {
 
 /// Pairs whose overlap proves that no motion can separate them.
-InseparablePairs overlap_locks(const Assembly& assembly, PathOracle& oracle, const RunContext& context);
+InseparablePairs overlap_locks(const SequenceQuery& query, PathOracle& oracle, const RunContext& context);
 
 class StrategyList {
  public:

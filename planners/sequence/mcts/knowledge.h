@@ -21,8 +21,11 @@ struct PartKnowledge {
 /// The state after a sequence of searches, real or simulated. Copies are cheap; simulations work on copies.
 class Knowledge {
  public:
-  /// `max_depth`: of searches; 0 = no limit.
-  Knowledge(std::size_t parts, unsigned max_depth) : parts_(parts), left_(parts), max_depth_(max_depth) {}
+  /// `parts`: of the assembly; those outside of `group` are gone. `max_depth`: of searches; 0 = no limit.
+  Knowledge(std::size_t parts, const std::vector<PlacedPart>& group, unsigned max_depth)
+      : parts_(parts, PartKnowledge{.gone = true}), left_(group.size()), max_depth_(max_depth) {
+    for (const PlacedPart& p : group) parts_[p.part].gone = false;
+  }
 
   std::size_t left() const { return left_; }
   const PartKnowledge& operator[](PartId part) const { return parts_[part]; }

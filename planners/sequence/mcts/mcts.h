@@ -23,7 +23,8 @@ struct MctsParams {
 class Mcts final : public SequencePlanner {
  public:
   explicit Mcts(const MctsParams& params) : params_(params) {}
-  SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+  SequencePlannerTraits traits() const noexcept override { return {.any_start = true}; }
+  SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override;
 
  private:

@@ -73,11 +73,11 @@ blocking::Directions directions_of(const Assembly& assembly, unsigned circles, N
 
 }  // namespace ndbg
 
-SequenceResult Ndbg::plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+SequenceResult Ndbg::plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                           RunContext& context) {
   using namespace blocking;
-  DisassemblyState state(assembly, oracle.constraints(), overlap_locks(assembly, oracle, context), params_.order,
-                         observer, context);
+  const Assembly& assembly = query.assembly;
+  DisassemblyState state(query, overlap_locks(query, oracle, context), params_.order, observer, context);
   StrategyList list(state, oracle);
   std::unique_ptr<PairSweep> sweep;
   std::unique_ptr<StraightMotion> straight;

@@ -26,8 +26,10 @@ struct NdbgParams {
 class Ndbg final : public SequencePlanner {
  public:
   explicit Ndbg(const NdbgParams& params) : params_(params) {}
-  bool keeps_constraints() const noexcept override { return true; }
-  SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+  SequencePlannerTraits traits() const noexcept override {
+    return {.keeps_constraints = true, .any_start = true};
+  }
+  SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override;
 
  private:

@@ -1,31 +1,38 @@
 #include "one_by_one/one_by_one.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 
+#include "dismantle/part_set.h"
+
 namespace dismantle {
 
-std::vector<PartId> ordered_parts(const Assembly& assembly, PartOrder order) {
-  std::vector<PartId> parts(assembly.parts.size());
-  std::iota(parts.begin(), parts.end(), PartId{0});
-  const auto volume = [&](PartId id) { return assembly.parts[id].volume; };
-  if (order == PartOrder::small_first)
-    std::stable_sort(parts.begin(), parts.end(), [&](PartId a, PartId b) { return volume(a) < volume(b); });
+std::vector<PlacedPart> ordered_group(const Assembly& assembly, std::vector<PlacedPart> group, PartOrder order) {
+  const auto volume = [&](const PlacedPart& p) { return assembly.parts[p.part].volume; };
+  const auto smaller = [&](const PlacedPart& a, const PlacedPart& b) { return volume(a) < volume(b); };
+  if (order == PartOrder::small_first) std::stable_sort(group.begin(), group.end(), smaller);
   if (order == PartOrder::large_first)
-    std::stable_sort(parts.begin(), parts.end(), [&](PartId a, PartId b) { return volume(a) > volume(b); });
-  return parts;
+    std::stable_sort(group.begin(), group.end(), [&](const auto& a, const auto& b) { return smaller(b, a); });
+  return group;
 }
 
-OneByOne::OneByOne(const Assembly& assembly, std::vector<PartId> parts, PathOracle& oracle, SequenceObserver& observer,
-                   RunContext& context)
+std::vector<PartId> ordered_parts(const Assembly& assembly, PartOrder order) {
+  return ids_of(ordered_group(assembly, whole_assembly(assembly).front(), order));
+}
+
+OneByOne::OneByOne(const Assembly& assembly, const std::vector<PlacedPart>& group, PathOracle& oracle,
+                   SequenceObserver& observer, RunContext& context)
     : assembly_(assembly),
       oracle_(oracle),
       observer_(observer),
       context_(context),
-      left_(std::move(parts)),
-      last_(assembly.parts.size()) {}
+      left_(ids_of(group)),
+      poses_(assembly.parts.size()),
+      steps_(group.size() - 1),
+      last_(assembly.parts.size()) {
+  for (const PlacedPart& p : group) poses_[p.part] = p.pose;
+}
 
 bool OneByOne::interrupted() {
   if (!interrupted_ && context_.should_stop()) {
@@ -38,14 +45,14 @@ bool OneByOne::interrupted() {
 Attempt OneByOne::question(PartId part, unsigned max_depth) const {
   Attempt attempt;
   attempt.max_depth = max_depth;
-  attempt.moving.push_back({part, Pose{}});
+  attempt.moving.push_back({part, poses_[part]});
   for (const PartId id : left_)
-    if (id != part) attempt.fixed.push_back({id, Pose{}});
+    if (id != part) attempt.fixed.push_back({id, poses_[id]});
   return attempt;
 }
 
 Outcome OneByOne::attempt(PartId part, unsigned max_depth, std::span<const PartId> next) {
-  context_.progress("sequence", removals_.size(), assembly_.parts.size() - 1, assembly_.parts[part].name);
+  context_.progress("sequence", removals_.size(), steps_, assembly_.parts[part].name);
   if (context_.threads > 1) {
     std::vector<Attempt> ahead{question(part, max_depth)};
     // Two attempts per thread keep all threads busy while an answer is recorded.
@@ -61,7 +68,7 @@ Outcome OneByOne::attempt(PartId part, unsigned max_depth, std::span<const PartI
     last_[part].reset();
     removals_.push_back({{part}, &answer});
     observer_.removed(removals_.back(), left_.size());
-    context_.progress("sequence", removals_.size(), assembly_.parts.size() - 1, assembly_.parts[part].name);
+    context_.progress("sequence", removals_.size(), steps_, assembly_.parts[part].name);
   } else if (!interrupted() || !last_[part]) {  // an interrupted attempt says less than the one before it
     last_[part] =
         Unsolved{part, result.outcome(), result.blocked_by, result.best_pose, result.message, answer.certificate};
@@ -98,13 +105,28 @@ SequenceResult OneByOne::finish() const {
     if (last_[id]) {
       result.unsolved.push_back(*last_[id]);
       auto& blockers = result.unsolved.back().blocked_by;
-      std::erase_if(blockers, [&](PartId b) { return std::find(left_.begin(), left_.end(), b) == left_.end(); });
+      std::erase_if(blockers, [&](PartId b) { return !contains(left_, b); });
     } else {
       result.unsolved.push_back(
           {id, interrupted_ ? why_ : Outcome::exhausted, {}, {}, "not tried: stopped before its turn"});
     }
   }
   return result;
+}
+
+SequenceResult each_group(const SequenceQuery& query,
+                          const std::function<SequenceResult(const std::vector<PlacedPart>& group)>& take_apart) {
+  SequenceResult all;
+  all.outcome = Outcome::solved;
+  for (const std::vector<PlacedPart>& group : query.start) {
+    const SequenceResult one = take_apart(group);
+    if (all.outcome == Outcome::solved) all.outcome = one.outcome;
+    all.removals.insert(all.removals.end(), one.removals.begin(), one.removals.end());
+    all.remaining.insert(all.remaining.end(), one.remaining.begin(), one.remaining.end());
+    all.unsolved.insert(all.unsolved.end(), one.unsolved.begin(), one.unsolved.end());
+    for (const auto& [name, count] : one.counts) all.counts[name] += count;
+  }
+  return all;
 }
 
 }  // namespace dismantle

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,14 +14,16 @@ namespace dismantle {
 /// In which order parts are tried.
 enum class PartOrder { small_first, as_given, large_first };
 
-/// All parts in that order. Parts of equal volume stay in the order of the assembly.
+/// The parts of a group in that order. Parts of equal volume stay in the order of the group.
+std::vector<PlacedPart> ordered_group(const Assembly& assembly, std::vector<PlacedPart> group, PartOrder order);
+/// All parts of the assembly in that order.
 std::vector<PartId> ordered_parts(const Assembly& assembly, PartOrder order);
 
 class OneByOne {
  public:
-  /// `parts`: all parts of the assembly, in the order in which left() gives them. All references must outlive this.
-  OneByOne(const Assembly& assembly, std::vector<PartId> parts, PathOracle& oracle, SequenceObserver& observer,
-           RunContext& context);
+  /// `group`: in the order in which left() gives its parts. All references must outlive this.
+  OneByOne(const Assembly& assembly, const std::vector<PlacedPart>& group, PathOracle& oracle,
+           SequenceObserver& observer, RunContext& context);
 
   const std::vector<PartId>& left() const { return left_; }
   bool done() const { return left_.size() <= 1; }
@@ -43,11 +46,17 @@ class OneByOne {
   SequenceObserver& observer_;
   RunContext& context_;
   std::vector<PartId> left_;
+  std::vector<Pose> poses_;  // by part id
+  std::size_t steps_;        // when all of the group are out
   std::vector<Removal> removals_;
   std::vector<std::optional<Unsolved>> last_;  // by part id: last failure; an interrupted one only if it is the first
   const AttemptResult* answer_ = nullptr;
   bool interrupted_ = false;
   Outcome why_ = Outcome::cancelled;
 };
+
+/// Takes the groups of the start apart one after the other and joins the results.
+SequenceResult each_group(const SequenceQuery& query,
+                          const std::function<SequenceResult(const std::vector<PlacedPart>& group)>& take_apart);
 
 }  // namespace dismantle

@@ -24,31 +24,33 @@ void ProgressiveParams::describe(Schema<ProgressiveParams>& schema) {
                      "part could be tried instead. Off: exactly Algorithm 2."});
 }
 
-SequenceResult Progressive::plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+SequenceResult Progressive::plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                                  RunContext& context) {
-  OneByOne sequence(assembly, ordered_parts(assembly, params_.order), oracle, observer, context);
-  for (unsigned depth = 1; !sequence.done(); ++depth) {
-    bool removed_any = false;
-    bool deeper_may_help = false;
-    const std::vector<PartId> round = sequence.left();
-    for (std::size_t i = 0; i < round.size() && !sequence.done(); ++i) {
-      if (sequence.interrupted()) return sequence.finish();
-      if (params_.last_pair_unlimited && params_.max_depth == 0 && sequence.left().size() == 2) {
-        for (const PartId part : std::vector<PartId>(sequence.left()))
-          if (!sequence.done() && !sequence.interrupted()) sequence.attempt(part, 0);
-        return sequence.finish();
+  return each_group(query, [&](const std::vector<PlacedPart>& group) {
+    OneByOne sequence(query.assembly, ordered_group(query.assembly, group, params_.order), oracle, observer, context);
+    for (unsigned depth = 1; !sequence.done(); ++depth) {
+      bool removed_any = false;
+      bool deeper_may_help = false;
+      const std::vector<PartId> round = sequence.left();
+      for (std::size_t i = 0; i < round.size() && !sequence.done(); ++i) {
+        if (sequence.interrupted()) return sequence.finish();
+        if (params_.last_pair_unlimited && params_.max_depth == 0 && sequence.left().size() == 2) {
+          for (const PartId part : std::vector<PartId>(sequence.left()))
+            if (!sequence.done() && !sequence.interrupted()) sequence.attempt(part, 0);
+          return sequence.finish();
+        }
+        const Outcome outcome = sequence.attempt(round[i], depth, std::span(round).subspan(i + 1));
+        removed_any = removed_any || is_success(outcome);
+        deeper_may_help = deeper_may_help || outcome == Outcome::depth_limit;
       }
-      const Outcome outcome = sequence.attempt(round[i], depth, std::span(round).subspan(i + 1));
-      removed_any = removed_any || is_success(outcome);
-      deeper_may_help = deeper_may_help || outcome == Outcome::depth_limit;
+      if (sequence.interrupted()) break;
+      const bool at_limit = params_.max_depth != 0 && depth >= params_.max_depth;
+      // At the limit a round is repeated at the same depth, as long as parts leave, because this may free others.
+      if (removed_any && (at_limit || !params_.deepen_always)) --depth;
+      if (!removed_any && (at_limit || !deeper_may_help)) break;
     }
-    if (sequence.interrupted()) break;
-    const bool at_limit = params_.max_depth != 0 && depth >= params_.max_depth;
-    // At the limit a round is repeated at the same depth, as long as parts leave, because this may free others.
-    if (removed_any && (at_limit || !params_.deepen_always)) --depth;
-    if (!removed_any && (at_limit || !deeper_may_help)) break;
-  }
-  return sequence.finish();
+    return sequence.finish();
+  });
 }
 
 }  // namespace dismantle

@@ -18,7 +18,8 @@ struct ProgressiveParams {
 class Progressive final : public SequencePlanner {
  public:
   explicit Progressive(const ProgressiveParams& params) : params_(params) {}
-  SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+  SequencePlannerTraits traits() const noexcept override { return {.any_start = true}; }
+  SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override;
 
  private:

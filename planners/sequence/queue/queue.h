@@ -15,7 +15,8 @@ struct QueueParams {
 class Queue final : public SequencePlanner {
  public:
   explicit Queue(const QueueParams& params) : params_(params) {}
-  SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+  SequencePlannerTraits traits() const noexcept override { return {.any_start = true}; }
+  SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override;
 
  private:

@@ -21,21 +21,23 @@ void RandomParams::describe(Schema<RandomParams>& schema) {
              {.unit = "1", .min = 0, .max = 1e6, .doc = "Depth of the path search; 0 = no limit."});
 }
 
-SequenceResult Random::plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+SequenceResult Random::plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                             RunContext& context) {
-  OneByOne sequence(assembly, ordered_parts(assembly, PartOrder::as_given), oracle, observer, context);
-  bool removed = true;
-  while (removed && !sequence.done()) {  // a removal may free others: draw all again
-    removed = false;
-    std::vector<PartId> drawn = sequence.left();
-    shuffle(drawn, context.rng);
-    for (std::size_t i = 0; i < drawn.size() && !removed; ++i) {
-      if (sequence.interrupted()) return sequence.finish();
-      removed = is_success(sequence.attempt(drawn[i], params_.max_depth, std::span(drawn).subspan(i + 1)));
+  return each_group(query, [&](const std::vector<PlacedPart>& group) {
+    OneByOne sequence(query.assembly, ordered_group(query.assembly, group, PartOrder::as_given), oracle, observer, context);
+    bool removed = true;
+    while (removed && !sequence.done()) {  // a removal may free others: draw all again
+      removed = false;
+      std::vector<PartId> drawn = sequence.left();
+      shuffle(drawn, context.rng);
+      for (std::size_t i = 0; i < drawn.size() && !removed; ++i) {
+        if (sequence.interrupted()) return sequence.finish();
+        removed = is_success(sequence.attempt(drawn[i], params_.max_depth, std::span(drawn).subspan(i + 1)));
+      }
     }
-  }
-  sequence.interrupted();
-  return sequence.finish();
+    sequence.interrupted();
+    return sequence.finish();
+  });
 }
 
 }  // namespace dismantle

@@ -14,7 +14,8 @@ struct RandomParams {
 class Random final : public SequencePlanner {
  public:
   explicit Random(const RandomParams& params) : params_(params) {}
-  SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+  SequencePlannerTraits traits() const noexcept override { return {.any_start = true}; }
+  SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override;
 
  private:

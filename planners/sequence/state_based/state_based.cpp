@@ -65,11 +65,11 @@ void StateBasedParams::describe(Schema<StateBasedParams>& s) {
         {.unit = "1", .min = 0, .max = 1e6, .doc = "Largest depth of the searches; 0 = no limit."});
 }
 
-SequenceResult StateBased::plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+SequenceResult StateBased::plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                                 RunContext& context) {
   using namespace blocking;
-  DisassemblyState state(assembly, oracle.constraints(), overlap_locks(assembly, oracle, context), params_.order,
-                         observer, context);
+  const Assembly& assembly = query.assembly;
+  DisassemblyState state(query, overlap_locks(query, oracle, context), params_.order, observer, context);
   StrategyList list(state, oracle);
   std::unique_ptr<PairSweep> sweep;
   std::unique_ptr<StraightMotion> straight;

@@ -30,8 +30,10 @@ struct StateBasedParams {
 class StateBased final : public SequencePlanner {
  public:
   explicit StateBased(const StateBasedParams& params) : params_(params) {}
-  bool keeps_constraints() const noexcept override { return true; }
-  SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+  SequencePlannerTraits traits() const noexcept override {
+    return {.keeps_constraints = true, .any_start = true};
+  }
+  SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override;
 
  private:

@@ -28,8 +28,10 @@ class AcmeInTurn final : public dismantle::SequencePlanner {
  public:
   explicit AcmeInTurn(const AcmeInTurnParams& params) : params_(params) {}
 
-  dismantle::SequenceResult plan(const dismantle::Assembly& assembly, dismantle::PathOracle& oracle,
+  // Without other traits the start is one group of all parts as assembled, and there are no constraints.
+  dismantle::SequenceResult plan(const dismantle::SequenceQuery& query, dismantle::PathOracle& oracle,
                                  dismantle::SequenceObserver& observer, dismantle::RunContext& context) override {
+    const dismantle::Assembly& assembly = query.assembly;
     std::vector<dismantle::PartId> left = ordered(assembly);
     std::vector<std::optional<dismantle::Unsolved>> why(left.size());  // by part: what its last search said
     dismantle::SequenceResult result;

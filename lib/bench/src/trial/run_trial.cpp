@@ -53,19 +53,25 @@ RunContext context_of_trial() {
 /// Records each step when it is found, so that a killed trial keeps its progress.
 class Recorder {
  public:
-  explicit Recorder(const fs::path& folder) : folder_(folder), progress_(TrialFiles(folder).progress) {}
+  Recorder(const fs::path& folder, const Assembly& assembly, const RunOptions& options)
+      : folder_(folder), assembly_(assembly), options_(options), progress_(TrialFiles(folder).progress) {}
 
-  void operator()(const Plan& plan) {
-    progress_ << fmt::format("{:.6f} {}\n", seconds_since(begin_), plan.assembly.parts.size() - plan.remaining.size())
-              << std::flush;
+  void operator()(const Disassembly& so_far, const DisassemblyStep& /*newest*/) {
+    const std::vector<std::vector<PartId>>& groups = so_far.groups();
+    std::size_t out = so_far.parts();
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      if (g == 0 || groups[g].size() > 1) out -= groups[g].size();
+    progress_ << fmt::format("{:.6f} {}\n", seconds_since(begin_), out) << std::flush;
     if (saved_ && seconds_since(last_) < 1) return;
-    write_file(TrialFiles(folder_).plan, to_json(plan));
+    write_file(TrialFiles(folder_).plan, to_json(plan_of(so_far, assembly_, options_)));
     saved_ = true;
     last_ = Clock::now();
   }
 
  private:
   fs::path folder_;
+  const Assembly& assembly_;
+  const RunOptions& options_;
   std::ofstream progress_;
   Clock::time_point begin_ = Clock::now(), last_;
   bool saved_ = false;
@@ -86,7 +92,8 @@ void plan_trial(const fs::path& folder) {
   const Clock::time_point start = Clock::now();
   const TrialRequest request = read_request(folder);
   Registry registry;
-  const RunConfig config = load_config({request.config, {}, {}}, registry);
+  RunConfig config = load_config({request.config, {}, {}}, registry);
+  config.run.force = ForceWhen::off;  // forced steps would hide what a planner does not find
   RunContext context = context_of_trial();
   context.threads = std::max(1u, config.run.threads);
   const auto importers = importers_of(registry);
@@ -102,10 +109,9 @@ void plan_trial(const fs::path& folder) {
 
   const Clock::time_point begin = Clock::now();
   if (config.run.timeout > 0) context.deadline = Deadline::after_seconds(config.run.timeout);
-  Recorder recorder(folder);
   RunOptions options = run_options_of(config, request.part);
   options.flexible = report.flexible;
-  options.force.when = ForceWhen::off;  // forced steps would hide what a planner does not find
+  Recorder recorder(folder, assembly, options);
   const RunResult result = run(assembly, setup, options, context, std::ref(recorder));
   const double solve_seconds = seconds_since(begin);
   write_file(TrialFiles(folder).plan, to_json(result.plan));

@@ -168,7 +168,13 @@ class Loader {
     for (const auto* type : registry_.types(PluginKind::importer))
       for (const auto& spec : type->type.params) homes_[spec.name].push_back("importers." + type->type.id);
     for (const auto& [member, known] : unknown_top_)
-      problems_.push_back(member->key_mark.error(unknown_key_message(member->key, {"", "", ""}, known, homes_)));
+      if (member->key == "force")
+        problems_.push_back(member->key_mark.error(
+            "the section 'force' is gone: its keys are parameters of the sequence planner 'least_cut'; write "
+            "sequence_planner: {type: chain, of: [{type: blocking}, {type: least_cut, candidates: 24}]}, or leave it "
+            "out"));
+      else
+        problems_.push_back(member->key_mark.error(unknown_key_message(member->key, {"", "", ""}, known, homes_)));
     for (const auto* member : unknown_plugins_)
       problems_.push_back(
           member->key_mark.error(unknown_key_message(member->key, {"plugins", "", ""}, {"search_paths"}, homes_)));
@@ -332,8 +338,6 @@ RunConfig load_config(const ConfigSource& source, Registry& registry) {
   config.layout = Schema<LayoutOptions>().bind(config.sections.at("layout"));
   config.layout.poses = std::move(poses);
   config.run = Schema<RunSettings>().bind(config.sections.at("run"));
-  config.force = Schema<ForceOptions>().bind(config.sections.at("force"));
-  config.force.when = config.run.force;
   config.proofs = Schema<ProofOptions>().bind(config.sections.at("immobility"));
   bind_verify_section(config);
   return config;

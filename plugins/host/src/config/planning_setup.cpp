@@ -1,6 +1,38 @@
 #include "dismantle/host/planning_setup.h"
 
+#include <algorithm>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "dismantle/errors.h"
+
 namespace dismantle {
+
+namespace {
+
+/// Is this plugin chosen, or one of those that it is composed of?
+bool names(const PluginChoice& choice, const std::string& type) {
+  if (choice.type == type) return true;
+  return std::any_of(choice.parameters.begin(), choice.parameters.end(), [&](const auto& parameter) {
+    const auto is_named = [&](const PluginChoice& inner) { return names(inner, type); };
+    if (const auto* one = std::get_if<PluginChoice>(&parameter.second)) return is_named(*one);
+    const auto* many = std::get_if<std::vector<PluginChoice>>(&parameter.second);
+    return many != nullptr && std::any_of(many->begin(), many->end(), is_named);
+  });
+}
+
+/// The chosen sequence planner; with run.force: last_resort followed by `least_cut`.
+PluginChoice with_last_resort(const RunConfig& config, const Registry& registry) {
+  if (config.run.force == ForceWhen::off || names(config.sequence_planner, "least_cut")) return config.sequence_planner;
+  for (const char* needed : {"chain", "least_cut"})
+    if (registry.lookup(PluginKind::sequence_planner, needed) == nullptr)
+      throw Error(std::string("run.force: last_resort needs the sequence planner '") + needed +
+                  "', which is not there; set run.force: off");
+  return {"chain", {{"of", std::vector<PluginChoice>{config.sequence_planner, {"least_cut", {}, {}}}}}, {}};
+}
+
+}  // namespace
 
 PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registry) {
   PlanningSetup out;
@@ -8,9 +40,10 @@ PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registr
   out.path_planner = [&registry, choice = config.path_planner] {
     return registry.create<PathPlanner>(choice.type, choice.parameters);
   };
-  out.sequence_planner =
-      registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.parameters);
+  const PluginChoice sequence = with_last_resort(config, registry);
+  out.sequence_planner = registry.create<SequencePlanner>(sequence.type, sequence.parameters);
   out.path_planner_id = config.path_planner.type;
+  out.sequence_planner_id = config.sequence_planner.type;
   if (config.layout.enabled) {
     out.transfer_planner = [&registry, choice = config.transfer_planner] {
       return registry.create<TransferPlanner>(choice.type, choice.parameters);
@@ -39,7 +72,7 @@ RunOptions run_options_of(const RunConfig& config, const std::string& part) {
   out.proofs = config.proofs;
   out.layout = config.layout;
   out.seed = static_cast<std::uint64_t>(config.run.seed);
-  out.force = config.force;
+  out.force = config.run.force;
   return out;
 }
 

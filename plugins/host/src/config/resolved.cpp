@@ -136,7 +136,6 @@ std::string resolved_yaml(const RunConfig& config, const Registry& registry, con
   }
   writer.constraints(config.constraints);
   fixed("run");
-  fixed("force");
   fixed("verify");
   return writer.text();
 }

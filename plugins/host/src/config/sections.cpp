@@ -111,7 +111,6 @@ const std::vector<std::pair<std::string, std::vector<ParamSpec>>>& fixed_section
       {"assembly", Schema<PrepareOptions>().specs()},
       {"layout", Schema<LayoutOptions>().specs()},
       {"run", Schema<RunSettings>().specs()},
-      {"force", Schema<ForceOptions>().specs()},
       {"verify", Schema<VerifySettings>().specs()}};
   return sections;
 }

@@ -63,18 +63,11 @@ void add_program_type(PluginFile file, PluginType type) {
 
 std::string_view to_string(PluginKind kind) {
   switch (kind) {
-    case PluginKind::simulator:
-      return "simulator";
-    case PluginKind::path_planner:
-      return "path_planner";
-    case PluginKind::sequence_planner:
-      return "sequence_planner";
-    case PluginKind::transfer_planner:
-      return "transfer_planner";
-    case PluginKind::immobility_prover:
-      return "immobility_prover";
-    case PluginKind::importer:
-      return "importer";
+#define DISMANTLE_NAME(name, Interface) \
+  case PluginKind::name:                \
+    return #name;
+    DISMANTLE_PLUGIN_KINDS(DISMANTLE_NAME)
+#undef DISMANTLE_NAME
   }
   return "unknown";
 }

@@ -4,12 +4,12 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "dismantle/assembly.h"
-#include "dismantle/engine/force_options.h"
 #include "dismantle/engine/layout.h"
 #include "dismantle/engine/proof_options.h"
 #include "dismantle/export.h"
@@ -34,12 +34,16 @@ struct PlanningSetup {
   std::shared_ptr<Simulator> simulator;
   std::function<std::shared_ptr<PathPlanner>()> path_planner;
   std::shared_ptr<SequencePlanner> sequence_planner;  ///< unused when `only_part` is set
-  std::string path_planner_id;
+  std::string path_planner_id, sequence_planner_id;
   /// Empty: assembly steps begin where the disassembly ended.
   std::function<std::shared_ptr<TransferPlanner>()> transfer_planner;
   std::string transfer_planner_id;
   std::vector<NamedProver> provers{};  ///< asked in this order; empty: no proofs
+  Objective objective{};               ///< empty: any order that is free of collisions
 };
+
+/// Whether parts without a verified path may be removed by force, by a sequence planner such as `least_cut`.
+enum class ForceWhen { off, last_resort };
 
 /// Limits and switches of one run.
 struct RunOptions {
@@ -48,19 +52,29 @@ struct RunOptions {
   std::string only_part;         ///< plan just this part's path, all others fixed
   VerifyOptions verify;
   ProofOptions proofs;
-  ForceOptions force;  ///< not used for `only_part`
+  ForceWhen force = ForceWhen::off;  ///< PathOracle::forcing() is null when off, and for `only_part`
   /// Pairs whose overlap, as assembled or as allowed by the user, exceeds this are named in each step that uses it;
   /// assembly units, >= 0.
   double named_overlap = 0.1;
   LayoutOptions layout;  ///< used when there is a transfer planner
   std::uint64_t seed = 1;
   Constraints constraints;
+  /// As SequenceQuery::start; empty: one group of all parts as assembled.
+  std::vector<std::vector<PlacedPart>> start{};
+  /// A disassembly of the same assembly to go on from: its steps are verified again and recorded before the sequence
+  /// planner starts. Not together with `start`.
+  std::optional<Disassembly> resume{};
   std::vector<FlexiblePart> flexible{};  ///< flexible parts, for the plan to state
 };
 
+/// Called after each step, with the steps so far and the newest of them. It may be the continuation of the step before,
+/// which it then replaces.
+using StepObserver = std::function<void(const Disassembly& so_far, const DisassemblyStep& newest)>;
+
 /// Result of a run.
 struct RunResult {
-  Plan plan;
+  Disassembly disassembly{0};
+  Plan plan;  ///< of the disassembly, with all that was found out about it
   Outcome outcome = Outcome::crashed;
   OracleCounts counts;
   std::map<std::string, double>
@@ -72,13 +86,20 @@ struct RunResult {
   double proof_seconds = 0;  ///< of immobility provers, summed over all threads; not part of the time of attempts
 };
 
-/// Runs to the end, the deadline or cancellation; in each case the result holds every finished step.
-/// `on_step` (may be empty) is called after each step with the plan so far.
+/// Runs to the end, the deadline or cancellation; in each case the result holds every finished step. `on_step` may be
+/// empty. @throws std::invalid_argument for a setup that cannot do what the options ask for. @throws InputError for a step
+/// of `resume` that is not valid.
 DISMANTLE_API RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOptions& options,
-                            RunContext& context, const std::function<void(const Plan&)>& on_step = {});
+                            RunContext& context, const StepObserver& on_step = {});
 
-/// The plan before the first step: what can be saved if a plugin never returns.
-DISMANTLE_API Plan plan_before_first_step(const Assembly& assembly, const RunOptions& options);
+/// The plan that states these steps and nothing else: what can be saved before the run ends. Before the first step:
+/// Disassembly(assembly.parts.size()).
+DISMANTLE_API Plan plan_of(const Disassembly& disassembly, const Assembly& assembly, const RunOptions& options);
+
+/// The steps of a plan for this assembly, the first `count` of them. @throws InputError for a step that names an unknown
+/// part or parts that are not together.
+DISMANTLE_API Disassembly disassembly_of(const Plan& plan, const Assembly& assembly,
+                                         std::size_t count = Disassembly::kNow);
 
 /// The oracle that `run` uses; public for tests and for sequence planners' authors.
 DISMANTLE_API std::unique_ptr<PathOracle> make_oracle(const Assembly& assembly, const PreparedAssembly& prepared,

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "dismantle/engine/force_options.h"
+#include "dismantle/engine/run.h"
 #include "dismantle/engine/layout.h"
 #include "dismantle/engine/proof_options.h"
 #include "dismantle/export.h"
@@ -73,7 +73,6 @@ struct RunConfig {
   VerifyOptions verify;
   double named_overlap = 0.1;  ///< as RunOptions::named_overlap
   ProofOptions proofs;
-  ForceOptions force;  ///< `when` is run.force
   LayoutOptions layout;
   NamedConstraints constraints;
   std::vector<ConstraintName> constraint_names;  ///< in reading order

@@ -136,7 +136,9 @@ inline FakeRun run_on(SequencePlanner& planner, const FakeMachine& machine, RunC
   FakeOracle oracle(machine);
   oracle.on_attempt = std::move(on_attempt);
   const Assembly assembly = machine.assembly();
-  run.result = planner.plan(assembly, oracle, run.notes, context);
+  const Constraints constraints;
+  const Objective objective;
+  run.result = planner.plan({assembly, whole_assembly(assembly), constraints, objective}, oracle, run.notes, context);
   for (auto& removal : run.result.removals) removal.attempt = nullptr;  // attempts end with the oracle
   run.asked = oracle.asked;
   return run;

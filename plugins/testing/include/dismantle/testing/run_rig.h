@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dismantle/engine/run.h"
+#include "dismantle/part_set.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/testing/fake_planning.h"
 
@@ -16,41 +17,39 @@ namespace dismantle::fake {
 /// Tries the remaining parts in turn until none leaves, and announces all its questions.
 class InTurn : public SequencePlanner {
  public:
-  SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+  SequencePlannerTraits traits() const noexcept override { return {.any_start = true}; }
+  /// Takes the first group of the start apart.
+  SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override {
     SequenceResult result;
-    std::vector<PartId> left;
-    for (const auto& p : assembly.parts) left.push_back(p.id);
+    std::vector<PlacedPart> left = query.start.front();
     for (bool removed = true; removed && left.size() > 1;) {
       removed = false;
       result.unsolved.clear();
       std::vector<Attempt> round;
-      for (const PartId id : left) round.push_back(question(left, id));
+      for (const PlacedPart& p : left) round.push_back(question(left, p));
       oracle.prefetch(round, context);
       for (std::size_t i = 0; i < left.size() && !removed; ++i) {
         const AttemptResult& r = oracle.attempt(question(left, left[i]), context);
         if (is_success(r.result.outcome())) {
           removed = true;
-          result.removals.push_back({{left[i]}, &r});
+          result.removals.push_back({{left[i].part}, &r});
           left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
           observer.removed(result.removals.back(), left.size());
         } else {
-          result.unsolved.push_back({left[i], r.result.outcome(), r.result.blocked_by, {}, r.result.message});
+          result.unsolved.push_back({left[i].part, r.result.outcome(), r.result.blocked_by, {}, r.result.message});
         }
       }
     }
-    result.remaining = left;
+    result.remaining = ids_of(left);
     result.outcome = left.size() <= 1 ? Outcome::solved : Outcome::exhausted;
     if (left.size() <= 1) result.unsolved.clear();
     return result;
   }
 
-  static Attempt question(const std::vector<PartId>& left, PartId part) {
-    Attempt a;
-    a.moving.push_back({part, Pose{}});
-    for (const PartId id : left)
-      if (id != part) a.fixed.push_back({id, Pose{}});
-    return a;
+  static Attempt question(const std::vector<PlacedPart>& left, const PlacedPart& part) {
+    const PlacedPart moving[] = {part};
+    return {{part}, without(left, moving)};
   }
 };
 
@@ -65,8 +64,8 @@ using Steps = std::function<SequenceResult(const Assembly&, PathOracle&, Sequenc
 class Custom final : public SequencePlanner {
  public:
   explicit Custom(Steps steps) : steps_(std::move(steps)) {}
-  SequenceResult plan(const Assembly& a, PathOracle& o, SequenceObserver& s, RunContext& c) override {
-    return steps_(a, o, s, c);
+  SequenceResult plan(const SequenceQuery& q, PathOracle& o, SequenceObserver& s, RunContext& c) override {
+    return steps_(q.assembly, o, s, c);
   }
 
  private:

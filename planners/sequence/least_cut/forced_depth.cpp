@@ -5,9 +5,9 @@
 
 #include "dismantle/geometry/ray.h"
 #include "dismantle/geometry/solid.h"
-#include "forced_motions.h"
+#include "least_cut/forced_motions.h"
 
-namespace dismantle {
+namespace dismantle::least_cut {
 
 namespace {
 
@@ -39,57 +39,16 @@ void depths_along(const geometry::Solid& solid, const Eigen::Vector3d& from, con
 
 }  // namespace
 
-std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, const Path& path,
-                                                const MotionDepthOptions& options, const RunContext& context) {
-  return meter_.deepest(ids_of_placed(motion.moving), motion.fixed, path, options, context);
-}
-
-/// The first sampled vertex that is, at one of a few instants, deeper in another part than the initial overlap plus
-/// `enough`; empty if there is none.
-std::optional<MotionDepth> ForcedMotions::depth_at_instants(const ForcedMotion& motion, double enough) const {
-  const std::size_t instants = 6;  // a witness saves a measurement; depths missed here are measured
-  const Path all = path(motion);
-  const auto try_points = [&](const PlacedPart& of, const PlacedPart& in) -> std::optional<MotionDepth> {
-    const double allowed = assembly_.initial_overlap(of.part, in.part);
-    const auto& vertices = assembly_.parts[of.part].mesh->vertices;
-    const std::size_t stride = std::max<std::size_t>(1, vertices.size() / options_.depth_samples);
-    for (const geometry::Solid& solid : verifier_.solids(in.part)) {
-      const Pose back = (in.pose * solid.frame).inverse() * of.pose;
-      for (std::size_t v = 0; v < vertices.size(); v += stride) {
-        const Eigen::Vector3d x = back * vertices[v];
-        if ((x - x.cwiseMax(solid.box.lo).cwiseMin(solid.box.hi)).squaredNorm() > 0) continue;
-        const double depth = -solid.bvh.signed_distance(x);
-        if (depth > allowed + enough)
-          return MotionDepth{of.part, in.part, depth, allowed, of.pose * vertices[v], false};
-      }
-    }
-    return {};
-  };
-  for (std::size_t k = 1; k < instants; ++k) {
-    const double at = static_cast<double>(k * (all.size() - 1)) / instants;
-    const auto i = static_cast<std::size_t>(at);
-    for (std::size_t m = 0; m < motion.moving.size(); ++m) {
-      const PlacedPart now{motion.moving[m].part,
-                           screw_interpolate(all[i][m], all[i + 1][m], at - static_cast<double>(i))};
-      for (const PlacedPart& other : motion.fixed) {
-        if (auto found = try_points(now, other)) return found;
-        if (auto found = try_points(other, now)) return found;
-      }
-    }
-  }
-  return {};
-}
-
 std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, const MotionDepthOptions& options,
                                                 const RunContext& context) {
   if (std::isfinite(options.stop_above)) {
     // Measuring a deep overlap completely takes seconds for large parts; a witness is enough to show that a motion cuts
     // in deeper than another.
-    const auto witness =
-        motion.straight() ? least_depth(motion, options.stop_above) : depth_at_instants(motion, options.stop_above);
+    const auto witness = least_depth(motion, options.stop_above);
     if (witness && witness->excess() > options.stop_above) return witness;
   }
-  if (!motion.straight()) return depth(motion, path(motion), options, context);
+  ForcingOracle& oracle = *oracle_.forcing();
+  if (!motion.straight()) return oracle.depth(ids_of(motion.moving), motion.fixed, path(motion), options, context);
   std::optional<MotionDepth> worst;
   bool proved = true;
   for (const PlacedPart& p : motion.moving)
@@ -101,8 +60,8 @@ std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, cons
         if (distance <= 0) continue;
         const Pose end{p.pose.t + distance * motion.twist.linear, p.pose.q};
         MotionDepthOptions own = options;
-        own.known_invalid = pair.blocked > options_.blocking_share;
-        pair.depth = meter_.deepest({p.part}, {q}, {{p.pose}, {end}}, own, context);
+        own.known_invalid = pair.blocked > params_.blocking_share;
+        pair.depth = oracle.depth({p.part}, {q}, {{p.pose}, {end}}, own, context);
         const bool to_the_end = !context.should_stop() && (!pair.depth || pair.depth->excess() <= options.stop_above);
         if (to_the_end) pair.resolution = options.absolute;
       }
@@ -125,8 +84,8 @@ std::optional<MotionDepth> ForcedMotions::least_depth(const ForcedMotion& motion
     const bool moves = sign > 0;
     const double allowed = assembly_.initial_overlap(of.part, in.part);
     const auto& vertices = assembly_.parts[of.part].mesh->vertices;
-    const std::size_t stride = std::max<std::size_t>(1, vertices.size() / options_.depth_samples);
-    for (const geometry::Solid& solid : verifier_.solids(in.part)) {
+    const std::size_t stride = std::max<std::size_t>(1, vertices.size() / params_.depth_samples);
+    for (const geometry::Solid& solid : solids(in.part)) {
       const Pose back = (in.pose * solid.frame).inverse();
       const Eigen::Vector3d local = back.q * Eigen::Vector3d(sign * along);
       for (std::size_t v = 0; v < vertices.size(); v += stride) {
@@ -155,4 +114,4 @@ std::optional<MotionDepth> ForcedMotions::least_depth(const ForcedMotion& motion
   return worst;
 }
 
-}  // namespace dismantle
+}  // namespace dismantle::least_cut

@@ -1,4 +1,4 @@
-#include "forced_motions.h"
+#include "least_cut/forced_motions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,10 @@
 #include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/ray.h"
 #include "dismantle/geometry/slippage.h"
-#include "dismantle/geometry/solid.h"
+#include "dismantle/geometry/part_data.h"
 #include "dismantle/geometry/swept_boxes.h"
 
-namespace dismantle {
+namespace dismantle::least_cut {
 
 namespace {
 
@@ -29,21 +29,6 @@ std::vector<Vec3> sphere(unsigned count) {
   return points;
 }
 
-bool has(const Placed& parts, PartId id) {
-  return std::any_of(parts.begin(), parts.end(), [id](const PlacedPart& p) { return p.part == id; });
-}
-
-bool lists(const std::vector<PartId>& parts, PartId id) {
-  return std::find(parts.begin(), parts.end(), id) != parts.end();
-}
-
-Placed without(const Placed& group, const Placed& gone) {
-  Placed rest;
-  std::copy_if(group.begin(), group.end(), std::back_inserter(rest),
-               [&](const PlacedPart& p) { return !has(gone, p.part); });
-  return rest;
-}
-
 std::vector<Aabb> boxes_of(const Assembly& assembly) {
   std::vector<Aabb> boxes;
   for (const Part& part : assembly.parts) boxes.push_back(part.mesh->box());
@@ -57,19 +42,12 @@ bool more_promising(const ForcedMotion& a, const ForcedMotion& b) {
   return a.duration * a.twist.linear.norm() < b.duration * b.twist.linear.norm();
 }
 
-std::vector<PartId> ids_of_placed(const Placed& parts) {
-  std::vector<PartId> list;
-  for (const PlacedPart& p : parts) list.push_back(p.part);
-  return list;
-}
-
-ForcedMotions::ForcedMotions(const Assembly& assembly, const Verifier& verifier, const Constraints& constraints,
-                             const ForceOptions& options)
+ForcedMotions::ForcedMotions(const Assembly& assembly, PathOracle& oracle, const Constraints& constraints,
+                             const LeastCutParams& params)
     : assembly_(assembly),
-      verifier_(verifier),
+      oracle_(oracle),
       constraints_(constraints),
-      options_(options),
-      meter_(assembly, verifier),
+      params_(params),
       axes_(assembly.parts.size()),
       turns_(assembly.parts.size()),
       boxes_(boxes_of(assembly)),
@@ -89,7 +67,7 @@ const std::vector<geometry::FaceAxis>& ForcedMotions::axes(PartId part) {
     if (area.norm() > 0) faces.push_back({area.normalized(), 0.5 * area.norm()});
   }
   known = geometry::rounded_axes(faces);
-  geometry::sort_by_area(known, options_.part_axes);
+  geometry::sort_by_area(known, params_.part_axes);
   // A round part need not have a face along its axis, so its axis is added, with an area that puts it first.
   for (const geometry::Twist& t : turns(part))
     geometry::add_face(known, {t.angular.normalized(), std::numeric_limits<double>::max()}, geometry::kSameDirection);
@@ -109,21 +87,15 @@ const std::vector<geometry::Twist>& ForcedMotions::turns(PartId part) {
 
 /// Sets of parts that the constraints keep together; each leaves as one piece.
 std::vector<Placed> ForcedMotions::units(const Placed& group) const {
+  const std::vector<PartId> set = kept_sets(assembly_.parts.size(), constraints_);
   std::vector<Placed> list;
-  std::vector<PartId> done;
   for (const PlacedPart& p : group) {
-    if (lists(done, p.part)) continue;
-    std::vector<PartId> unit{p.part};
-    for (std::size_t k = 0; k < unit.size(); ++k)
-      for (const auto& together : constraints_.together)
-        if (lists(together, unit[k]))
-          for (const PartId id : together)
-            if (!lists(unit, id) && has(group, id)) unit.push_back(id);
-    done.insert(done.end(), unit.begin(), unit.end());
-    Placed placed;
-    std::copy_if(group.begin(), group.end(), std::back_inserter(placed),
-                 [&](const PlacedPart& q) { return lists(unit, q.part); });
-    list.push_back(std::move(placed));
+    const auto same = std::find_if(list.begin(), list.end(),
+                                   [&](const Placed& unit) { return set[unit.front().part] == set[p.part]; });
+    if (same == list.end())
+      list.push_back({p});
+    else
+      same->push_back(p);
   }
   return list;
 }
@@ -131,12 +103,7 @@ std::vector<Placed> ForcedMotions::units(const Placed& group) const {
 /// Do the constraints allow these parts to leave the group now?
 bool ForcedMotions::allowed(const Placed& moving, const Placed& group) const {
   if (moving.empty() || moving.size() == group.size()) return false;
-  return std::none_of(moving.begin(), moving.end(), [&](const PlacedPart& p) {
-    return lists(constraints_.base, p.part) ||
-           std::any_of(constraints_.before.begin(), constraints_.before.end(), [&](const auto& rule) {
-             return rule.second == p.part && has(group, rule.first) && !has(moving, rule.first);
-           });
-  });
+  return may_leave(ids_of(moving), ids_of(without(group, moving)), constraints_);
 }
 
 std::vector<Vec3> ForcedMotions::directions(const Placed& group, Variety variety) {
@@ -144,7 +111,7 @@ std::vector<Vec3> ForcedMotions::directions(const Placed& group, Variety variety
   for (const PlacedPart& p : group)
     for (const geometry::FaceAxis& a : axes(p.part))
       geometry::add_face(lines, {p.pose.q * a.axis, a.area}, geometry::kSameDirection);
-  geometry::sort_by_area(lines, variety == Variety::all ? options_.group_axes : options_.quick_axes);
+  geometry::sort_by_area(lines, variety == Variety::all ? params_.group_axes : params_.quick_axes);
   for (int k = 0; k < 3; ++k) geometry::add_face(lines, {Vec3::Unit(k), 0}, geometry::kSameDirection);
   std::vector<Vec3> list;
   for (const geometry::FaceAxis& a : lines) {
@@ -152,7 +119,7 @@ std::vector<Vec3> ForcedMotions::directions(const Placed& group, Variety variety
     list.push_back(-a.axis.normalized());
   }
   if (variety == Variety::all)
-    for (const Vec3& d : sphere(options_.directions)) list.push_back(d);
+    for (const Vec3& d : sphere(params_.directions)) list.push_back(d);
   return list;
 }
 
@@ -173,10 +140,18 @@ const ForcedMotions::Known& ForcedMotions::blocking(const PlacedPart& moving, co
                                                                                  : kNotBlocking;
 }
 
+const std::vector<geometry::Solid>& ForcedMotions::solids(PartId part) const {
+  return geometry::solids_of(assembly_, part, *oracle_.memo(), oracle_.tolerance());
+}
+
+const std::vector<Vec3>& ForcedMotions::hull(PartId part) const {
+  return geometry::hull_of(assembly_, part, *oracle_.memo());
+}
+
 /// Largest of along * x over the hull.
 double ForcedMotions::reach(const PlacedPart& part, const Vec3& along) const {
   double most = -std::numeric_limits<double>::infinity();
-  for (const Vec3& c : verifier_.hull(part.part)) most = std::max(most, along.dot(part.pose * c));
+  for (const Vec3& c : hull(part.part)) most = std::max(most, along.dot(part.pose * c));
   return most;
 }
 
@@ -193,18 +168,18 @@ bool ForcedMotions::in_reach(const PlacedPart& moving, const PlacedPart& fixed, 
 /// it.
 void ForcedMotions::send_rays(const PlacedPart& moving, const PlacedPart& fixed, const Vec3& along,
                               Known& entry) const {
-  const double skin = verifier_.options().max_penetration + assembly_.initial_overlap(moving.part, fixed.part);
+  const double skin = oracle_.tolerance() + assembly_.initial_overlap(moving.part, fixed.part);
   const double distance = reach(fixed, along) + reach(moving, -along);
   if (distance <= skin) return;
   if (!in_reach(moving, fixed, along, distance)) return;
   const auto send = [&](const PlacedPart& from, const PlacedPart& to, const Vec3& d) {
     const auto& vertices = assembly_.parts[from.part].mesh->vertices;
-    const std::size_t stride = std::max<std::size_t>(1, vertices.size() / options_.rays);
+    const std::size_t stride = std::max<std::size_t>(1, vertices.size() / params_.rays);
     std::size_t rays = 0, hits = 0;
     double length = 0;
     for (std::size_t v = 0; v < vertices.size(); v += stride, ++rays) {
       const Vec3 x = from.pose * vertices[v];
-      for (const geometry::Solid& solid : verifier_.solids(to.part)) {
+      for (const geometry::Solid& solid : solids(to.part)) {
         const Pose back = (to.pose * solid.frame).inverse();
         const Vec3 start = back * x, local = back.q * d;
         const auto enters = [&](std::uint32_t t) { return solid.normals[t].dot(local) < 0; };
@@ -237,7 +212,7 @@ double ForcedMotions::distance_apart(const ForcedMotion& motion, const Vec3& alo
   double front = -std::numeric_limits<double>::infinity(), behind = front;
   for (const PlacedPart& p : motion.fixed) front = std::max(front, reach(p, along));
   for (const PlacedPart& p : motion.moving) behind = std::max(behind, reach(p, -along));
-  return std::max(0.0, front + behind) + options_.clearance * verifier_.options().max_penetration;
+  return std::max(0.0, front + behind) + params_.clearance * oracle_.tolerance();
 }
 
 /// As ForcedMotion::thickness.
@@ -252,11 +227,11 @@ double ForcedMotions::thickness(const ForcedMotion& motion, const Vec3& along) {
 void ForcedMotions::add_straight(const Placed& unit, const std::vector<Placed>& all, const Placed& group,
                                  const Vec3& along, std::vector<ForcedMotion>& list, const RunContext& context) {
   std::vector<Placed> sets{unit};
-  for (const double most : {options_.blocking_share, options_.firm_share}) {
+  for (const double most : {params_.blocking_share, params_.firm_share}) {
     std::vector<bool> moves(all.size(), false);
     std::vector<std::size_t> open;
     for (std::size_t k = 0; k < all.size(); ++k)
-      if (has(unit, all[k].front().part)) {
+      if (contains(unit, all[k].front().part)) {
         moves[k] = true;
         open.push_back(k);
       }
@@ -275,14 +250,14 @@ void ForcedMotions::add_straight(const Placed& unit, const std::vector<Placed>& 
     if (open.size() == all.size()) continue;
     Placed set;
     std::copy_if(group.begin(), group.end(), std::back_inserter(set), [&](const PlacedPart& p) {
-      return std::any_of(open.begin(), open.end(), [&](std::size_t k) { return has(all[k], p.part); });
+      return std::any_of(open.begin(), open.end(), [&](std::size_t k) { return contains(all[k], p.part); });
     });
     sets.push_back(std::move(set));
   }
   for (const Placed& set : sets) {
     if (!allowed(set, group)) continue;
     const bool listed = std::any_of(list.begin(), list.end(), [&](const ForcedMotion& m) {
-      return m.twist.linear == along && ids_of_placed(m.moving) == ids_of_placed(set);
+      return m.twist.linear == along && ids_of(m.moving) == ids_of(set);
     });
     if (!listed) list.push_back(straight(set, group, along));
   }
@@ -302,7 +277,7 @@ void ForcedMotions::add_screws(const Placed& unit, const Placed& group, std::vec
       const double speed = axis.dot(m.twist.linear);
       const Vec3 along = speed > 0 ? axis : Vec3(-axis);
       m.duration = distance_apart(m, along) / std::abs(speed);  // infinite for a pure rotation
-      if (!(m.duration * m.twist.angular.norm() <= 2 * std::numbers::pi * options_.max_turns)) continue;
+      if (!(m.duration * m.twist.angular.norm() <= 2 * std::numbers::pi * params_.max_turns)) continue;
       m.thickness = thickness(m, along);
       list.push_back(std::move(m));
     }
@@ -377,4 +352,4 @@ Path ForcedMotions::path(const ForcedMotion& motion) const {
   return path;
 }
 
-}  // namespace dismantle
+}  // namespace dismantle::least_cut

@@ -12,8 +12,8 @@
 #include "dismantle/geometry/solid.h"
 #include "dismantle/preparation/prepare.h"
 #include "dismantle/samples.h"
-#include "dismantle/testing/run_rig.h"
 #include "dismantle/testing/trials.h"
+#include "last_resort.h"
 
 namespace dismantle {
 namespace {
@@ -63,15 +63,12 @@ TEST_P(ForcedSamples, TheStatedDepthAgreesWithBruteForceToATenth) {
   RunContext context;
   PrepareReport report;
   const Assembly assembly = prepare_assembly(samples::make(GetParam()), GetParam(), "", {}, context, report);
-  RunOptions options;
-  options.force.when = ForceWhen::last_resort;
   const auto nothing = [](const Assembly&, PathOracle&, SequenceObserver&, RunContext&) {
     SequenceResult result;
     result.outcome = Outcome::exhausted;
     return result;
   };
-  const Plan plan =
-      run(assembly, fake::setup(fake::push, std::make_shared<fake::Custom>(nothing)), options, context).plan;
+  const Plan plan = fake::forced_run(assembly, std::make_shared<fake::Custom>(nothing)).plan;
   ASSERT_NE(plan.status, PlanStatus::partial);
 
   const double scale = assembly.normalization.scale;

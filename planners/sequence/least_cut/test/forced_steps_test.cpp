@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dismantle/testing/fake_prover.h"
-#include "dismantle/testing/run_rig.h"
+#include "last_resort.h"
 #include "dismantle/verification/check_plan.h"
 
 namespace dismantle {
@@ -16,14 +16,8 @@ namespace {
 
 using fake::InTurn;
 
-RunOptions last_resort() {
-  RunOptions options;
-  options.force.when = ForceWhen::last_resort;
-  return options;
-}
-
-RunResult run_in_turn(const Assembly& assembly, const RunOptions& options) {
-  return fake::run_in_turn(assembly, {}, options);
+RunResult last_resort_in_turn(const Assembly& assembly, const RunContext& context = {}) {
+  return fake::forced_run(assembly, std::make_shared<InTurn>(), context);
 }
 
 PlanCheck check(const Plan& plan, const Assembly& assembly) {
@@ -32,14 +26,14 @@ PlanCheck check(const Plan& plan, const Assembly& assembly) {
 }
 
 TEST(ForcedSteps, OffLeavesWhatIsStuck) {
-  const RunResult r = run_in_turn(fake::closed_box(), {});
+  const RunResult r = fake::run_in_turn(fake::closed_box());
   EXPECT_EQ(r.plan.status, PlanStatus::partial);
   EXPECT_EQ(r.plan.forced_steps(), 0u);
 }
 
 TEST(ForcedSteps, WhatIsStuckIsTakenOutWhereItCutsInLeast) {
   const Assembly assembly = fake::closed_box();
-  const RunResult r = run_in_turn(assembly, last_resort());
+  const RunResult r = last_resort_in_turn(assembly);
   EXPECT_EQ(r.plan.status, PlanStatus::forced);
   EXPECT_NE(r.outcome, Outcome::solved);
   ASSERT_EQ(r.plan.disassembly.size(), 1u);
@@ -61,19 +55,21 @@ TEST(ForcedSteps, WhatIsStuckIsTakenOutWhereItCutsInLeast) {
 TEST(ForcedSteps, ThePairThatIsCutIsAskedAboutAndItsProofIsCited) {
   for (const bool proves : {true, false}) {
     int asked = 0;
-    PlanningSetup setup = fake::setup(
-        fake::push, std::make_shared<fake::Custom>([](const Assembly&, PathOracle&, SequenceObserver&, RunContext&) {
-          SequenceResult result;
-          result.outcome = Outcome::cancelled;
-          return result;
-        }));
+    PlanningSetup setup = fake::setup(fake::push, fake::last_resort_after(std::make_shared<fake::Custom>(
+                                                      [](const Assembly&, PathOracle&, SequenceObserver&, RunContext&) {
+                                                        SequenceResult result;
+                                                        result.outcome = Outcome::cancelled;
+                                                        return result;
+                                                      })));
+    RunOptions options;
+    options.force = ForceWhen::last_resort;
     setup.provers = {
         fake::prover("medium", {ProofEffort::medium, 2, 2, false}, [&](const SeparationQuery& q, const RunContext&) {
           ++asked;
           return proves ? std::optional(fake::claim(q, "held")) : std::nullopt;
         })};
     RunContext context;
-    const RunResult r = run(fake::closed_box(), setup, last_resort(), context);
+    const RunResult r = run(fake::closed_box(), setup, options, context);
     ASSERT_EQ(r.plan.disassembly.size(), 1u);
     const auto& forced = r.plan.disassembly.front().forced;
     ASSERT_TRUE(forced);
@@ -90,7 +86,7 @@ TEST(ForcedSteps, ThePairThatIsCutIsAskedAboutAndItsProofIsCited) {
 
 TEST(ForcedSteps, AFalseDepthIsRefused) {
   const Assembly assembly = fake::closed_box();
-  const Plan plan = run_in_turn(assembly, last_resort()).plan;
+  const Plan plan = last_resort_in_turn(assembly).plan;
   for (const double factor : {0.0, 0.5, 1.5, 3.0}) {
     Plan edited = plan;
     edited.disassembly.front().forced->depth *= factor;
@@ -107,7 +103,7 @@ TEST(ForcedSteps, AFalseDepthIsRefused) {
 TEST(ForcedSteps, NoneWhereVerifiedOnesDo) {
   for (const unsigned n : {1u, 3u, 5u}) {
     const Assembly assembly = fake::tube_with_blocks(n);
-    const RunResult off = run_in_turn(assembly, {}), on = run_in_turn(assembly, last_resort());
+    const RunResult off = fake::run_in_turn(assembly), on = last_resort_in_turn(assembly);
     EXPECT_EQ(on.plan.status, PlanStatus::complete);
     EXPECT_EQ(fake::text_without_times(off.plan), fake::text_without_times(on.plan));
   }
@@ -131,7 +127,7 @@ Assembly box_and_row(unsigned n) {
 TEST(ForcedSteps, VerifiedOnesComeFirstAndGoOnAfterwards) {
   for (const unsigned n : {1u, 4u}) {
     const Assembly assembly = box_and_row(n);
-    const RunResult r = run_in_turn(assembly, last_resort());
+    const RunResult r = last_resort_in_turn(assembly);
     EXPECT_EQ(r.plan.status, PlanStatus::forced);
     EXPECT_EQ(r.plan.forced_steps(), 1u);
     EXPECT_EQ(r.plan.disassembly.size(), n + 1);
@@ -143,15 +139,14 @@ TEST(ForcedSteps, ThePlanDoesNotDependOnThreads) {
   const Assembly assembly = box_and_row(3);
   RunContext two;
   two.threads = 2;
-  EXPECT_EQ(fake::text_without_times(fake::run_in_turn(assembly, {}, last_resort()).plan),
-            fake::text_without_times(fake::run_in_turn(assembly, two, last_resort()).plan));
+  EXPECT_EQ(fake::text_without_times(last_resort_in_turn(assembly).plan),
+            fake::text_without_times(last_resort_in_turn(assembly, two).plan));
 }
 
 TEST(ForcedSteps, WhatLeftAsAGroupIsTakenApartWhereItStands) {
   // The group of box and plate leaves first, whole; then the plate is forced out of it, far from where it was.
   const Assembly assembly = box_and_row(1);
-  const auto steps = [](const Assembly& a, PathOracle& oracle, SequenceObserver& observer, RunContext& context) {
-    if (a.parts.size() < 3) return InTurn().plan(a, oracle, observer, context);
+  const auto steps = [](const Assembly&, PathOracle& oracle, SequenceObserver& observer, RunContext& context) {
     Attempt attempt;
     attempt.moving = {{0, Pose{}}, {1, Pose{}}};
     attempt.fixed = {{2, Pose{}}};
@@ -163,49 +158,46 @@ TEST(ForcedSteps, WhatLeftAsAGroupIsTakenApartWhereItStands) {
     observer.removed(result.removals.back(), 2);
     return result;
   };
-  RunContext context;
-  const RunResult r =
-      run(assembly, fake::setup(fake::push, std::make_shared<fake::Custom>(steps)), last_resort(), context);
+  const RunResult r = fake::forced_run(assembly, std::make_shared<fake::Custom>(steps));
   EXPECT_EQ(r.plan.status, PlanStatus::forced);
   EXPECT_EQ(r.plan.disassembly.size(), 2u);
   EXPECT_TRUE(check(r.plan, assembly).valid);
 }
 
 TEST(ForcedSteps, ConstraintsHold) {
-  RunOptions options = last_resort();
+  RunOptions options;
   options.constraints.base = {1};
   options.constraints.together = {{0, 1}};
   class Keeps final : public InTurn {
    public:
-    bool keeps_constraints() const noexcept override { return true; }
+    SequencePlannerTraits traits() const noexcept override { return {.keeps_constraints = true, .any_start = true}; }
   };
-  RunContext context;
-  const RunResult r = run(fake::closed_box(), fake::setup(fake::push, std::make_shared<Keeps>()), options, context);
+  const RunResult r = fake::forced_run(fake::closed_box(), std::make_shared<Keeps>(), {}, options);
   EXPECT_EQ(r.plan.forced_steps(), 0u);
 }
 
-/// In a displaced group, questions and answers use the group's own ids and frame.
 TEST(ForcedSteps, AfterAForcedStepADisplacedGroupIsPlannedAsAnyOther) {
-  Assembly assembly = box_and_row(2);
-  const auto steps = [&](const Assembly& a, PathOracle& oracle, SequenceObserver& observer, RunContext& context) {
-    if (a.parts.size() < 4) return InTurn().plan(a, oracle, observer, context);
-    Attempt attempt;  // box, plate and the first block leave the second one
-    attempt.moving = {{0, Pose{}}, {1, Pose{}}, {2, Pose{}}};
-    attempt.fixed = {{3, Pose{}}};
-    const AttemptResult& answer = oracle.attempt(attempt, context);
-    SequenceResult result;
-    result.outcome = Outcome::timeout;
-    result.removals.push_back({{0, 1, 2}, &answer});
-    observer.removed(result.removals.back(), 3);
-    return result;
+  const Assembly assembly = box_and_row(2);
+  class GroupFirst final : public InTurn {
+   public:
+    SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
+                        RunContext& context) override {
+      if (query.start.front().size() < 4) return InTurn::plan(query, oracle, observer, context);
+      Attempt attempt;  // box, plate and the first block leave the second one
+      attempt.moving = {{0, Pose{}}, {1, Pose{}}, {2, Pose{}}};
+      attempt.fixed = {{3, Pose{}}};
+      const AttemptResult& answer = oracle.attempt(attempt, context);
+      SequenceResult result;
+      result.outcome = Outcome::timeout;
+      result.removals.push_back({{0, 1, 2}, &answer});
+      observer.removed(result.removals.back(), 3);
+      return result;
+    }
   };
-  RunContext context;
-  const RunResult r =
-      run(assembly, fake::setup(fake::push, std::make_shared<fake::Custom>(steps)), last_resort(), context);
+  const RunResult r = fake::forced_run(assembly, std::make_shared<GroupFirst>());
   EXPECT_EQ(r.plan.status, PlanStatus::forced);
   ASSERT_EQ(r.plan.disassembly.size(), 3u);
   EXPECT_EQ(r.plan.forced_steps(), 1u);
-  EXPECT_TRUE(r.plan.disassembly.back().forced);  // the block leaves by a verified step before
   const PlanCheck c = check(r.plan, assembly);
   EXPECT_TRUE(c.valid) << (c.problems.empty() ? "" : c.problems.front().message);
 }

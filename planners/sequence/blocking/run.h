@@ -10,10 +10,10 @@
 
 namespace dismantle::blocking {
 
-class Disassembly {
+class Run {
  public:
-  Disassembly(const BlockingParams& params, const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
-              RunContext& context);
+  Run(const BlockingParams& params, const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
+      RunContext& context);
   SequenceResult run();
   /// In the order in which they are tried.
   const std::vector<std::unique_ptr<Strategy>>& strategies() const { return list_.strategies(); }

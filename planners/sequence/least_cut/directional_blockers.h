@@ -10,7 +10,7 @@
 #include "dismantle/aabb.h"
 #include "dismantle/simulator.h"
 
-namespace dismantle {
+namespace dismantle::least_cut {
 
 /// Equal for unit vectors that differ only by rounding.
 std::array<int, 3> rounded_direction(const Eigen::Vector3d& direction);
@@ -83,4 +83,4 @@ class DirectionalBlockers {
   std::size_t last_list_id_ = 0;
 };
 
-}  // namespace dismantle
+}  // namespace dismantle::least_cut

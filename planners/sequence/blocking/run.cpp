@@ -1,4 +1,4 @@
-#include "blocking/disassembly.h"
+#include "blocking/run.h"
 
 #include <utility>
 
@@ -15,13 +15,14 @@
 
 namespace dismantle::blocking {
 
-Disassembly::Disassembly(const BlockingParams& params, const Assembly& assembly, PathOracle& oracle,
-                         SequenceObserver& observer, RunContext& context)
+Run::Run(const BlockingParams& params, const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
+         RunContext& context)
     : params_(params),
       oracle_(oracle),
-      state_(assembly, oracle.constraints(), overlap_locks(assembly, oracle, context), params.order, observer, context),
+      state_(query, overlap_locks(query, oracle, context), params.order, observer, context),
       history_(state_, params),
       list_(state_, oracle) {
+  const Assembly& assembly = query.assembly;
   state_.add_listener(history_);
   if (oracle.tolerance() > 0) sweep_ = std::make_unique<PairSweep>(assembly, oracle);
   if (sweep_ && params.straight) {
@@ -34,7 +35,7 @@ Disassembly::Disassembly(const BlockingParams& params, const Assembly& assembly,
 }
 
 /// The cheapest and most conclusive strategies come first.
-void Disassembly::make_strategies() {
+void Run::make_strategies() {
   if (straight_) {
     list_.add(std::make_unique<TargetFirst>(state_, *straight_));
     list_.add(std::make_unique<FreePart>(state_, *straight_));
@@ -53,7 +54,7 @@ void Disassembly::make_strategies() {
   list_.add(std::make_unique<PostponedSearch>(state_, history_, *searcher_, params_));
 }
 
-SequenceResult Disassembly::run() {
+SequenceResult Run::run() {
   SequenceResult result = list_.run();
   if (straight_) result.counts["relations"] = static_cast<double>(straight_->computed());
   return result;

@@ -9,18 +9,18 @@
 #include <tuple>
 #include <vector>
 
-#include "directional_blockers.h"
-#include "dismantle/engine/force_options.h"
 #include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/twist.h"
+#include "dismantle/geometry/solid.h"
+#include "dismantle/part_memo.h"
+#include "dismantle/part_set.h"
 #include "dismantle/path_oracle.h"
-#include "dismantle/verification/motion_depth.h"
+#include "least_cut/directional_blockers.h"
+#include "least_cut/params.h"
 
-namespace dismantle {
+namespace dismantle::least_cut {
 
 using Placed = std::vector<PlacedPart>;
-
-std::vector<PartId> ids_of_placed(const Placed& parts);
 
 /// Some parts of a group leave the others by a translation or a screw motion.
 struct ForcedMotion {
@@ -38,9 +38,9 @@ bool more_promising(const ForcedMotion& a, const ForcedMotion& b);
 /// Keeps measurements of pairs of parts until one of them moves. Not safe to share between threads.
 class ForcedMotions {
  public:
-  /// All references must outlive it.
-  ForcedMotions(const Assembly& assembly, const Verifier& verifier, const Constraints& constraints,
-                const ForceOptions& options);
+  /// All references must outlive it. The oracle has a memo and allows forced steps.
+  ForcedMotions(const Assembly& assembly, PathOracle& oracle, const Constraints& constraints,
+                const LeastCutParams& params);
 
   /// Motions out of a group (two parts or more, ascending) that the constraints allow, most promising first:
   /// translations of single parts and of parts that block each other, and screws of threaded parts.
@@ -55,9 +55,6 @@ class ForcedMotions {
   /// How deep the motion cuts in. Ends early once the depth is known to exceed options.stop_above. When stopped: the
   /// depth found so far, not `proved`. Empty if nothing was measured, or if no two parts come near each other.
   std::optional<MotionDepth> depth(const ForcedMotion& motion, const MotionDepthOptions& options,
-                                   const RunContext& context);
-  /// Measured along the whole path, as it is written to the plan.
-  std::optional<MotionDepth> depth(const ForcedMotion& motion, const Path& path, const MotionDepthOptions& options,
                                    const RunContext& context);
   /// Columns as motion.moving.
   Path path(const ForcedMotion& motion) const;
@@ -76,7 +73,6 @@ class ForcedMotions {
   std::vector<Eigen::Vector3d> directions(const Placed& group, Variety variety);
   const std::vector<geometry::FaceAxis>& axes(PartId part);
   const std::vector<geometry::Twist>& turns(PartId part);
-  std::optional<MotionDepth> depth_at_instants(const ForcedMotion& motion, double enough) const;
   Known& known(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along);
   /// As known(), but stores nothing for pairs that never meet, which are most pairs in a large group.
   const Known& blocking(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along);
@@ -88,14 +84,15 @@ class ForcedMotions {
                     const Eigen::Vector3d& along, std::vector<ForcedMotion>& list, const RunContext& context);
   void add_screws(const Placed& unit, const Placed& group, std::vector<ForcedMotion>& list);
   ForcedMotion straight(const Placed& moving, const Placed& group, const Eigen::Vector3d& along);
+  const std::vector<geometry::Solid>& solids(PartId part) const;
+  const std::vector<Eigen::Vector3d>& hull(PartId part) const;
   double distance_apart(const ForcedMotion& motion, const Eigen::Vector3d& along) const;
   double thickness(const ForcedMotion& motion, const Eigen::Vector3d& along);
 
   const Assembly& assembly_;
-  const Verifier& verifier_;
+  PathOracle& oracle_;
   const Constraints& constraints_;
-  ForceOptions options_;
-  MotionDepthMeter meter_;
+  const LeastCutParams& params_;
   std::vector<std::vector<geometry::FaceAxis>> axes_;               // by part, made when first needed
   std::vector<std::optional<std::vector<geometry::Twist>>> turns_;  // by part, in its frame
   std::map<Key, Known> known_;
@@ -103,4 +100,4 @@ class ForcedMotions {
   DirectionalBlockers blockers_;
 };
 
-}  // namespace dismantle
+}  // namespace dismantle::least_cut

@@ -1,17 +1,18 @@
 // Cached blockers of parts along directions, compared with a new query for each pair.
-#include "directional_blockers.h"
+#include "least_cut/directional_blockers.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 
 #include "dismantle/geometry/swept_boxes.h"
 #include "dismantle/testing/run_rig.h"
 #include "dismantle/testing/shapes.h"
-#include "forced_motions.h"
+#include "least_cut/forced_motions.h"
 
-namespace dismantle {
+namespace dismantle::least_cut {
 namespace {
 
 using shapes::Vec3;
@@ -130,13 +131,19 @@ TEST(ForcedMotions, AQuickMotionIsThatOfAGroupSeenAnew) {
     }
     const Assembly assembly = fake::assembly_of(parts);
     const Verifier verifier(assembly, {});
-    ForcedMotions kept(assembly, verifier, none, {});
+    const PreparedAssembly nothing;
+    const PlanningSetup setup = fake::setup(fake::push);
+    const RunOptions options;
+    RunContext context;
+    const std::unique_ptr<PathOracle> oracle = make_oracle(assembly, nothing, setup, options, verifier, context);
+    const LeastCutParams params;
+    ForcedMotions kept(assembly, *oracle, none, params);
     while (group.size() > 1) {
-      ForcedMotions fresh(assembly, verifier, none, {});
+      ForcedMotions fresh(assembly, *oracle, none, params);
       EXPECT_FALSE(kept.quick_candidate(group, stopped));
       const auto a = kept.quick_candidate(group, {}), b = fresh.quick_candidate(group, {});
       ASSERT_TRUE(a && b);
-      EXPECT_EQ(ids_of_placed(a->moving), ids_of_placed(b->moving));
+      EXPECT_EQ(ids_of(a->moving), ids_of(b->moving));
       EXPECT_EQ(a->twist.linear, b->twist.linear);
       EXPECT_EQ(a->thickness, b->thickness);
       EXPECT_EQ(a->duration, b->duration);
@@ -147,4 +154,4 @@ TEST(ForcedMotions, AQuickMotionIsThatOfAGroupSeenAnew) {
 }
 
 }  // namespace
-}  // namespace dismantle
+}  // namespace dismantle::least_cut

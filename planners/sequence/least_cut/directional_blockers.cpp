@@ -1,4 +1,4 @@
-#include "directional_blockers.h"
+#include "least_cut/directional_blockers.h"
 
 #include <algorithm>
 #include <array>
@@ -7,16 +7,9 @@
 #include <utility>
 
 #include "dismantle/geometry/swept_boxes.h"
+#include "dismantle/part_set.h"
 
-namespace dismantle {
-
-namespace {
-
-bool among(const std::vector<PlacedPart>& parts, PartId id) {
-  return std::any_of(parts.begin(), parts.end(), [id](const PlacedPart& p) { return p.part == id; });
-}
-
-}  // namespace
+namespace dismantle::least_cut {
 
 std::array<int, 3> rounded_direction(const Eigen::Vector3d& d) {
   const Eigen::Vector3d steps = 1e6 * d;  // directions of the same face differ by rounding only
@@ -106,20 +99,20 @@ double DirectionalBlockers::Along::thickness(const Placed& unit) const {
   double sum = 0;
   for (const PlacedPart& p : unit)
     for (const Blocker& q : all_.blockers(all_.rows_[row_], p))
-      if (all_.present_[q.part] && !among(unit, q.part)) sum += q.thickness;
+      if (all_.present_[q.part] && !contains(unit, q.part)) sum += q.thickness;
   return sum;
 }
 
 double DirectionalBlockers::Along::length(const Placed& unit) const {
   Row& row = all_.rows_[row_];
-  double ahead = among(unit, front_) ? second_ : furthest_, behind = -std::numeric_limits<double>::infinity();
+  double ahead = contains(unit, front_) ? second_ : furthest_, behind = -std::numeric_limits<double>::infinity();
   for (const PlacedPart& p : unit) behind = std::max(behind, all_.measured(row, p).behind);
-  if (unit.size() > 1 && among(unit, front_)) {  // the second one may be in the unit, too
+  if (unit.size() > 1 && contains(unit, front_)) {  // the second one may be in the unit, too
     ahead = -std::numeric_limits<double>::infinity();
     for (const PlacedPart& p : *all_.group_)
-      if (!among(unit, p.part)) ahead = std::max(ahead, all_.measured(row, p).ahead);
+      if (!contains(unit, p.part)) ahead = std::max(ahead, all_.measured(row, p).ahead);
   }
   return std::max(0.0, ahead + behind);
 }
 
-}  // namespace dismantle
+}  // namespace dismantle::least_cut

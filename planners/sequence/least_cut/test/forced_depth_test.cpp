@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/testing/run_rig.h"
 #include "dismantle/testing/trials.h"
 #include "dismantle/verification/check_plan.h"
+#include "last_resort.h"
 
 namespace dismantle {
 namespace {
@@ -100,9 +100,7 @@ std::shared_ptr<SequencePlanner> gives_up() {
 }
 
 RunResult forced_run(const Assembly& assembly, RunContext context) {
-  RunOptions options;
-  options.force.when = ForceWhen::last_resort;
-  return run(assembly, fake::setup(fake::push, gives_up()), options, context);
+  return fake::forced_run(assembly, gives_up(), std::move(context));
 }
 
 TEST(ForcedDepth, AgreesWithBruteForceToATenth) {

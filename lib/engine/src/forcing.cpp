@@ -1,0 +1,111 @@
+#include "forcing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+#include "oracle.h"
+#include "stopwatch.h"
+
+namespace dismantle {
+
+namespace {
+
+/// Does the proof say that the moving parts cannot leave the fixed ones? It does when the part that it is about is on
+/// one side, and all its other parts are on the other.
+bool divides(const Certificate& proof, const Attempt& attempt) {
+  const std::span others(proof.parts.begin() + 1, proof.parts.end());
+  const auto all_in = [&](const std::vector<PlacedPart>& side) {
+    return std::all_of(others.begin(), others.end(), [&](PartId id) { return contains(side, id); });
+  };
+  return (contains(attempt.moving, proof.parts.front()) && all_in(attempt.fixed)) ||
+         (contains(attempt.fixed, proof.parts.front()) && all_in(attempt.moving));
+}
+
+}  // namespace
+
+std::optional<MotionDepth> Forcing::depth(const std::vector<PartId>& moving, const std::vector<PlacedPart>& fixed,
+                                          const Path& path, const MotionDepthOptions& options,
+                                          const RunContext& context) {
+  return meter_.deepest(moving, fixed, path, options, context);
+}
+
+/// A proof about the deepest pair first, then one of those that are known.
+const Certificate* Forcing::proof_for(const Attempt& attempt, const MotionDepth& deepest,
+                                      std::span<const Unsolved> said, const RunContext& context) {
+  if (!context.should_stop())
+    if (const Certificate* pair =
+            oracle_.proofs().prove_pair(deepest.part, deepest.other, ProofEffort::medium, context))
+      return pair;
+  for (const Unsolved& u : said)
+    if (u.certificate != nullptr && divides(*u.certificate, attempt)) return u.certificate;
+  return nullptr;
+}
+
+void Forcing::prove_left(std::vector<Unsolved>& unsolved, const std::vector<std::vector<PlacedPart>>& groups,
+                         const RunContext& context) {
+  dismantle::prove_left(unsolved, groups, oracle_.proofs(), proofs_, context);
+}
+
+/// The text of the proof, or the message and the cost of the searches, in machine-independent counts.
+std::string Forcing::reason_for(const Attempt& attempt, const Certificate* proof,
+                                std::span<const Unsolved> said) const {
+  std::string text = proof != nullptr ? proof->text : std::string();
+  if (proof != nullptr && proof->full_tolerance) return text;
+  SearchEffort effort;
+  for (const PlacedPart& p : attempt.moving) {
+    for (const Unsolved& u : said)
+      if (u.part == p.part && u.certificate == nullptr && text.empty()) text = u.message;
+    const SearchEffort own = oracle_.effort_on(p.part);
+    effort.attempts += own.attempts;
+    effort.depth = std::max(effort.depth, own.depth);
+    effort.cost += own.cost;
+  }
+  if (!text.empty()) text += "; ";
+  if (effort.attempts == 0) return text + "no straight motion was found to be valid, and no search came to its end";
+  return text + fmt::format("{} of '{}'{}, {:.0f} steps and state checks, found no path",
+                            effort.attempts == 1 ? "1 search" : fmt::format("{} searches", effort.attempts),
+                            oracle_.planner_id(), effort.depth == 0 ? "" : fmt::format(" to depth {}", effort.depth),
+                            effort.cost);
+}
+
+const AttemptResult& Forcing::propose_forced(const Attempt& attempt, const Path& path,
+                                             const std::optional<MotionDepth>& known, std::span<const Unsolved> said,
+                                             RunContext& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  AttemptResult answer;
+  answer.attempt = canonical(attempt, assembly_.parts.size());
+  answer.proposed = true;
+  const std::vector<PartId> moving = ids_of(answer.attempt.moving);
+  if (moving != ids_of(attempt.moving) || answer.attempt.fixed.empty())
+    throw std::invalid_argument("a forced path whose parts are not in ascending order, or that leaves nothing behind");
+  NormalizedPath written = normalizer_.normalize(path, answer.attempt.moving);
+  if (!written.problem.empty()) throw std::invalid_argument("a forced path is unusable: " + written.problem);
+  ForcedRemoval removal{std::move(written.path), {}};
+  std::optional<MotionDepth> deepest = known;
+  if (!deepest || !deepest->proved) {
+    const double share = 0.03;  // a depth that is written with two digits is exact to half of the second one
+    const auto found =
+        depth(moving, answer.attempt.fixed, removal.path, {verifier_.options().max_penetration, share}, context);
+    removal.cut.lower_bound = context.should_stop();
+    if (found && (!deepest || found->excess() >= deepest->excess())) deepest = found;
+  }
+  removal.cut.deepest = deepest.value_or(MotionDepth{moving.front(), answer.attempt.fixed.front().part});
+  const Certificate* proof = proof_for(answer.attempt, removal.cut.deepest, said, context);
+  if (proof != nullptr) removal.cut.certificate = std::make_shared<const Certificate>(*proof);
+  removal.cut.reason = reason_for(answer.attempt, proof, said);
+  const double to_input = 1 / assembly_.normalization.scale;
+  context.log(LogLevel::info,
+              fmt::format("forced: '{}' past '{}', {}{:.4g} deep", assembly_.parts[removal.cut.deepest.part].name,
+                          assembly_.parts[removal.cut.deepest.other].name,
+                          removal.cut.lower_bound ? "at least " : "", removal.cut.deepest.depth * to_input));
+  answer.forced = std::make_shared<const ForcedRemoval>(std::move(removal));
+  answer.result.fail(Outcome::exhausted, answer.forced->cut.reason);
+  answer.seconds = seconds_since(begin);
+  return oracle_.keep_forced(std::move(answer));
+}
+
+}  // namespace dismantle

@@ -1,0 +1,132 @@
+#include "recorder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <stdexcept>
+#include <utility>
+
+#include "dismantle/part_set.h"
+
+namespace dismantle {
+
+namespace {
+
+/// The step `last`, which was a placement, followed by `next` of the same parts.
+DisassemblyStep joined(const DisassemblyStep& last, DisassemblyStep next) {
+  Path path(last.path->begin(), last.path->end() - 1);
+  path.insert(path.end(), next.path->begin(), next.path->end());
+  next.path = std::make_shared<const Path>(std::move(path));
+  next.max_penetration = std::max(next.max_penetration, last.max_penetration);
+  next.seconds += last.seconds;
+  next.depth += last.depth;
+  for (const PartId id : last.contacts)
+    if (!contains(next.contacts, id)) next.contacts.push_back(id);
+  return next;
+}
+
+}  // namespace
+
+Recorder::Recorder(const Assembly& assembly, const Oracle& oracle, const PlanningSetup& setup,
+                   const RunOptions& options, const StepObserver& on_step, const RunContext& context)
+    : assembly_(assembly),
+      oracle_(oracle),
+      setup_(setup),
+      constraints_(options.constraints),
+      on_step_(on_step),
+      context_(context),
+      disassembly_(options.start.empty() ? Disassembly(assembly.parts.size())
+                                         : Disassembly(assembly.parts.size(), options.start)) {}
+
+void Recorder::removed(const Removal& removal, std::size_t /*parts_left*/) {
+  if (!problem_.empty()) throw std::logic_error(problem_);  // the planner ignored an earlier error
+  try {
+    record(removal);
+  } catch (const std::logic_error& e) {
+    problem_ = e.what();
+    throw;
+  }
+  if (!on_step_) return;
+  try {
+    on_step_(disassembly_, disassembly_.steps().back());
+  } catch (const std::exception& e) {  // the run continues; the next step tries again
+    context_.log(LogLevel::error, fmt::format("the plan so far could not be passed on: {}", e.what()));
+  }
+}
+
+void Recorder::record(const Removal& removal) {
+  check_question(removal);
+  check_constraints(removal);
+  DisassemblyStep step = to_step(removal);
+  if (continues_last(step)) {
+    step = joined(disassembly_.steps().back(), std::move(step));
+    disassembly_.pop();
+  }
+  disassembly_.add(std::move(step));
+}
+
+void Recorder::check_question(const Removal& removal) const {
+  const AttemptKey* key = oracle_.key_of(removal.attempt);
+  if (key == nullptr || !removal.attempt->removes())
+    throw std::logic_error("a removal that is not a successful answer of the oracle");
+  if (removal.parts.empty()) throw std::logic_error("a removal of no part");
+  const std::optional<std::size_t> group = disassembly_.common_group(removal.parts);
+  if (!group) throw std::logic_error("the parts of a removal are unknown or not together any more");
+  const std::vector<PartId> rest = without(disassembly_.groups()[*group], removal.parts);
+  if (rest.empty() && !removal.attempt->out) throw std::logic_error("a removal that leaves nothing behind");
+  Attempt question;
+  question.goal = removal.attempt->attempt.goal;
+  question.moving = disassembly_.placed(removal.parts);
+  question.fixed = disassembly_.placed(rest);
+  if (removal.parts != ids_of(removal.attempt->attempt.moving) ||
+      digest_of(canonical(question, assembly_.parts.size())) != key->scene)
+    throw std::logic_error("a removal whose path was found for other parts or other places");
+}
+
+void Recorder::check_constraints(const Removal& removal) const {
+  for (const PartId id : constraints_.base)
+    if (contains(removal.parts, id)) throw std::logic_error("a removal that moves a part of the base");
+  for (const auto& list : constraints_.together) {
+    const auto moves = [&](PartId id) { return contains(removal.parts, id); };
+    const bool any = std::any_of(list.begin(), list.end(), moves);
+    if (any && (!std::all_of(list.begin(), list.end(), moves) || (removal.attempt->out && list.size() > 1)))
+      throw std::logic_error("a removal that parts what is to stay together");
+  }
+  if (removal.attempt->attempt.goal.placement) return;
+  const std::vector<PartId> leaving =
+      removal.attempt->out ? std::vector<PartId>{*removal.attempt->out} : removal.parts;
+  const std::vector<PartId> rest = without(disassembly_.groups()[*disassembly_.common_group(removal.parts)], leaving);
+  if (!may_leave(leaving, rest, constraints_))
+    throw std::logic_error("a removal before another that is to come first");
+}
+
+DisassemblyStep Recorder::to_step(const Removal& removal) const {
+  const AttemptResult& answer = *removal.attempt;
+  DisassemblyStep step;
+  step.parts = removal.parts;
+  step.path = std::make_shared<const Path>(answer.path());
+  step.placement = answer.attempt.goal.placement;
+  step.released = answer.out;
+  step.max_penetration = answer.max_penetration;
+  step.seconds = answer.seconds;
+  step.depth = answer.result.depth;
+  const std::string& proposing = removal.planner.empty() ? setup_.sequence_planner_id : removal.planner;
+  step.planner = answer.forced ? "forced" : answer.proposed && !proposing.empty() ? proposing : setup_.path_planner_id;
+  step.contacts = answer.result.blocked_by;
+  if (answer.forced) {
+    step.forced = answer.forced->cut;
+    step.depth = 1;
+    step.contacts = {answer.forced->cut.deepest.other};
+  }
+  return step;
+}
+
+/// Does the step continue the placement of the last one?
+bool Recorder::continues_last(const DisassemblyStep& step) const {
+  if (disassembly_.steps().empty()) return false;
+  const DisassemblyStep& last = disassembly_.steps().back();
+  return last.placement && last.parts == step.parts;
+}
+
+}  // namespace dismantle

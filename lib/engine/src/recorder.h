@@ -1,0 +1,46 @@
+/// Records the removals of a run as steps of its disassembly.
+#pragma once
+
+#include <string>
+
+#include "dismantle/disassembly.h"
+#include "dismantle/engine/run.h"
+#include "oracle.h"
+
+namespace dismantle {
+
+/// Records a removal only if the oracle answered exactly this question: these parts at their current poses, with all
+/// others of their group at theirs. So no plan holds an unchecked path, whatever a sequence planner does.
+class Recorder final : public SequenceObserver {
+ public:
+  /// All references must outlive this.
+  Recorder(const Assembly& assembly, const Oracle& oracle, const PlanningSetup& setup, const RunOptions& options,
+           const StepObserver& on_step, const RunContext& context);
+
+  /// Appends one step. If the last step was a placement of the same parts, extends it instead: the plan shows one
+  /// motion. @throws std::logic_error with the problem of the removal, which stops the sequence planner; nothing has
+  /// changed then.
+  void removed(const Removal& removal, std::size_t parts_left) override;
+
+  const Disassembly& disassembly() const { return disassembly_; }
+  /// The first problem of a removal; empty: none.
+  const std::string& problem() const { return problem_; }
+
+ private:
+  void record(const Removal& removal);
+  DisassemblyStep to_step(const Removal& removal) const;
+  void check_question(const Removal& removal) const;
+  void check_constraints(const Removal& removal) const;
+  bool continues_last(const DisassemblyStep& step) const;
+
+  const Assembly& assembly_;
+  const Oracle& oracle_;
+  const PlanningSetup& setup_;
+  const Constraints& constraints_;
+  const StepObserver& on_step_;
+  const RunContext& context_;
+  Disassembly disassembly_;
+  std::string problem_;
+};
+
+}  // namespace dismantle

@@ -1,0 +1,214 @@
+#include "least_cut/least_cut.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "least_cut/force_budget.h"
+#include "least_cut/forced_motions.h"
+
+namespace dismantle {
+
+void LeastCutParams::describe(Schema<LeastCutParams>& s) {
+  s.add("directions", &LeastCutParams::directions,
+        {.unit = "1",
+         .min = 0,
+         .max = 1000,
+         .doc = "Number of directions, spread over a sphere, that a forced step may take in addition to the axes of the "
+                "parts' faces."});
+  s.add("candidates", &LeastCutParams::candidates,
+        {.unit = "1",
+         .min = 1,
+         .max = 100000,
+         .doc = "Number of motions whose depth is measured for one forced step, most promising first."});
+  s.advanced("quick_margin", &LeastCutParams::quick_margin, {.min = 1, .max = 100});
+  s.advanced("overtime", &LeastCutParams::overtime, {.min = 0, .max = 3600});
+  s.advanced("part_axes", &LeastCutParams::part_axes, {.min = 1, .max = 1000});
+  s.advanced("group_axes", &LeastCutParams::group_axes, {.min = 1, .max = 1000});
+  s.advanced("quick_axes", &LeastCutParams::quick_axes, {.min = 1, .max = 1000});
+  s.advanced("rays", &LeastCutParams::rays, {.min = 1, .max = 100000});
+  s.advanced("blocking_share", &LeastCutParams::blocking_share, {.min = 0, .max = 1});
+  s.advanced("firm_share", &LeastCutParams::firm_share, {.min = 0, .max = 1});
+  s.advanced("clearance", &LeastCutParams::clearance, {.min = 1, .max = 1000});
+  s.advanced("max_turns", &LeastCutParams::max_turns, {.min = 0, .max = 10000});
+  s.advanced("set_candidates", &LeastCutParams::set_candidates, {.min = 1, .max = 100000});
+  s.advanced("set_similarity", &LeastCutParams::set_similarity, {.min = -1, .max = 1});
+  s.advanced("depth_samples", &LeastCutParams::depth_samples, {.min = 1, .max = 100000});
+  s.advanced("depth_share", &LeastCutParams::depth_share, {.min = 0.001, .max = 1});
+  s.advanced("depth_poses", &LeastCutParams::depth_poses, {.min = 1, .max = 1e9});
+}
+
+namespace least_cut {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+/// What the steps of one run share; it lives in the memo of the oracle.
+struct Session {
+  Session(const SequenceQuery& query, PathOracle& oracle, const LeastCutParams& params)
+      : motions(query.assembly, oracle, query.constraints, params) {}
+  ForcedMotions motions;
+  double slowest_quick_step = 0;  // seconds
+  bool proofs_tried = false;      // about the parts that are left
+};
+
+Session& session_of(const SequenceQuery& query, PathOracle& oracle, const LeastCutParams& params) {
+  return **oracle.memo()->get<std::shared_ptr<Session>>("least_cut", 0, RunContext{}, [&] {
+    return std::optional(std::make_shared<Session>(query, oracle, params));
+  });
+}
+
+/// A motion and how deep it cuts in; `measured`: to the end.
+struct Choice {
+  ForcedMotion motion;
+  std::optional<MotionDepth> depth{};
+  bool measured = false;
+  double excess() const { return depth ? depth->excess() : 0; }
+};
+
+/// One forced step.
+class Step {
+ public:
+  Step(const LeastCutParams& params, const SequenceQuery& query, PathOracle& oracle, Session& session,
+       RunContext& context)
+      : params_(params),
+        query_(query),
+        oracle_(oracle),
+        motions_(session.motions),
+        context_(context),
+        session_(session),
+        budget_(context.deadline, params, session.slowest_quick_step) {}
+
+  /// The answer to record; null: none was found, or the run is stopped.
+  const AttemptResult* make(std::span<const Unsolved> said) {
+    const Clock::time_point begin = Clock::now();
+    std::optional<Choice> choice;
+    RunContext own = context_;
+    own.deadline = budget_.for_all();
+    if (budget_.limited()) choice = quick_choice(own);
+    if (own.should_stop()) return nullptr;
+    session_.slowest_quick_step = std::max(session_.slowest_quick_step, seconds_since(begin));
+    own.deadline = budget_.for_measuring(steps_left());
+    if (!own.should_stop())
+      if (std::optional<Choice> better = least(own)) choice = std::move(better);
+    if (!choice || context_.cancel.cancelled()) return nullptr;
+    const Attempt question{choice->motion.moving, choice->motion.fixed};
+    const Path path = motions_.path(choice->motion);
+    if (choice->measured && choice->excess() <= oracle_.tolerance()) {  // it may be valid
+      const AttemptResult& answer = oracle_.propose(question, path, context_);
+      if (is_success(answer.result.outcome())) return &answer;
+    }
+    // A depth that is not measured yet has to be; the time for a proof is shared with the other steps.
+    own.deadline = choice->measured ? budget_.for_measuring(steps_left()) : budget_.for_all();
+    const AttemptResult& answer = oracle_.forcing()->propose_forced(question, path, choice->depth, said, own);
+    return context_.cancel.cancelled() ? nullptr : &answer;
+  }
+
+ private:
+  /// The motions to measure: the most promising ones of each set of parts, in distinct directions.
+  std::vector<const ForcedMotion*> chosen(const std::vector<ForcedMotion>& all) const {
+    std::map<std::vector<PartId>, std::vector<const ForcedMotion*>> of_set;
+    for (const ForcedMotion& m : all) of_set.try_emplace(ids_of(m.moving));
+    if (of_set.empty()) return {};
+    const std::size_t most = std::max<std::size_t>(params_.set_candidates, params_.candidates / of_set.size());
+    std::vector<const ForcedMotion*> list;
+    for (const ForcedMotion& m : all) {
+      std::vector<const ForcedMotion*>& same = of_set[ids_of(m.moving)];
+      const auto alike = [&](const ForcedMotion* other) {
+        return m.straight() && other->straight() && m.twist.linear.dot(other->twist.linear) > params_.set_similarity;
+      };
+      if (same.size() >= most || std::any_of(same.begin(), same.end(), alike)) continue;
+      same.push_back(&m);
+      list.push_back(&m);
+      if (list.size() == params_.candidates) break;
+    }
+    return list;
+  }
+
+  /// The motion that cuts in least. When stopped: the best of those compared so far, if any.
+  std::optional<Choice> least(const RunContext& context) {
+    std::vector<ForcedMotion> all;
+    for (const Placed& group : query_.start)
+      for (ForcedMotion& m : motions_.candidates(group, context)) all.push_back(std::move(m));
+    std::stable_sort(all.begin(), all.end(),
+                     [](const ForcedMotion& a, const ForcedMotion& b) { return a.thickness < b.thickness; });
+    MotionDepthOptions options{oracle_.tolerance(), params_.depth_share, std::numeric_limits<double>::infinity(),
+                               static_cast<std::uint64_t>(params_.depth_poses)};
+    std::optional<Choice> best;
+    for (const ForcedMotion* m : chosen(all)) {
+      Choice now{*m, motions_.depth(*m, options, context)};
+      if (context.should_stop()) break;
+      if (best && now.excess() >= options.stop_above) continue;
+      now.measured = !now.depth || now.depth->proved;
+      best = std::move(now);
+      options.stop_above = best->excess();
+      if (best->measured && best->excess() <= oracle_.tolerance()) break;
+    }
+    return best;
+  }
+
+  /// The most promising of a few motions, with a lower bound of its depth from rays.
+  std::optional<Choice> quick_choice(const RunContext& context) {
+    std::optional<ForcedMotion> best;
+    for (const Placed& group : query_.start) {
+      std::optional<ForcedMotion> m = motions_.quick_candidate(group, context);
+      if (m && (!best || more_promising(*m, *best))) best = std::move(m);
+    }
+    if (!best) return std::nullopt;
+    const std::optional<MotionDepth> depth = motions_.least_depth(*best);
+    return Choice{std::move(*best), depth};
+  }
+
+  /// Upper bound, since groups that the constraints keep together need fewer steps.
+  std::size_t steps_left() const {
+    std::size_t steps = 0;
+    for (const Placed& group : query_.start) steps += group.size() - 1;
+    return std::max<std::size_t>(1, steps);
+  }
+
+  const LeastCutParams& params_;
+  const SequenceQuery& query_;
+  PathOracle& oracle_;
+  ForcedMotions& motions_;
+  RunContext& context_;
+  Session& session_;
+  ForceBudget budget_;
+};
+
+}  // namespace
+}  // namespace least_cut
+
+SequenceResult LeastCut::plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
+                              RunContext& context) {
+  SequenceResult result;
+  result.outcome = Outcome::exhausted;
+  result.unsolved.assign(query.said.begin(), query.said.end());
+  for (const auto& group : query.start)
+    for (const PlacedPart& p : group) result.remaining.push_back(p.part);
+  if (context.cancel.cancelled()) {
+    result.outcome = Outcome::cancelled;
+    return result;
+  }
+  if (oracle.forcing() == nullptr || oracle.memo() == nullptr || query.start.empty()) return result;
+  least_cut::Session& session = least_cut::session_of(query, oracle, params_);
+  if (!session.proofs_tried) oracle.forcing()->prove_left(result.unsolved, query.start, context);
+  session.proofs_tried = true;
+  const AttemptResult* answer =
+      least_cut::Step(params_, query, oracle, session, context).make(result.unsolved);
+  if (answer == nullptr) {
+    result.outcome = context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
+    return result;
+  }
+  const std::vector<PartId> moved = ids_of(answer->attempt.moving);
+  result.removals.push_back({moved, answer});
+  std::erase_if(result.remaining, [&](PartId id) { return contains(moved, id); });
+  observer.removed(result.removals.back(), result.remaining.size());
+  return result;
+}
+
+}  // namespace dismantle
