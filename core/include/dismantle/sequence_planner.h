@@ -45,6 +45,7 @@ struct SequencePlannerTraits {
   /// refused.
   bool any_start = false;
   bool follows_objective = false;  ///< prefers removals that SequenceQuery::objective likes
+  bool forces = false;             ///< works only with PathOracle::forcing(); does nothing where there is none
 };
 
 /// What is to be taken apart. References outlive the call.

@@ -110,7 +110,10 @@ class Links final : public SequenceObserver {
 
   Deadline time_of_first() const {
     const double left = context_.deadline.seconds_left();
-    if (!std::isfinite(left) || planners_.size() == 1) return context_.deadline;
+    const bool forces = oracle_.forcing() != nullptr;
+    const bool others = std::any_of(planners_.begin() + 1, planners_.end(),
+                                    [&](const auto& planner) { return forces || !planner->traits().forces; });
+    if (!std::isfinite(left) || !others) return context_.deadline;
     return Deadline::after_seconds((1 - params_.later_share) * left);
   }
 
@@ -196,7 +199,7 @@ class Links final : public SequenceObserver {
 
 }  // namespace
 
-Chain::Chain(const ChainParams& params) : params_(params), traits_{true, true, true} {
+Chain::Chain(const ChainParams& params) : params_(params), traits_{true, true, true, false} {
   for (const auto& ref : params_.of) {
     const auto planner = planners_.emplace_back(ref.create());
     const SequencePlannerTraits one = planner->traits();

@@ -12,7 +12,9 @@ namespace dismantle {
 class LeastCut final : public SequencePlanner {
  public:
   explicit LeastCut(const LeastCutParams& params) : params_(params) {}
-  SequencePlannerTraits traits() const noexcept override { return {.keeps_constraints = true, .any_start = true}; }
+  SequencePlannerTraits traits() const noexcept override {
+    return {.keeps_constraints = true, .any_start = true, .forces = true};
+  }
   SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override;
 
