@@ -14,7 +14,9 @@
 #include "dismantle/export.h"
 #include "dismantle/flexible.h"
 #include "dismantle/outcome.h"
+#include "dismantle/param_value.h"
 #include "dismantle/pose.h"
+#include "dismantle/step_note.h"
 
 namespace dismantle {
 
@@ -46,6 +48,47 @@ struct PlanStepOverlap {
   std::optional<Aabb> region{};
 };
 
+/// A Certificate with names instead of ids. Poses act on input coordinates, in input units; numbers as in Certificate.
+struct PlanCertificate {
+  std::string kind;
+  std::vector<std::string> parts;
+  std::vector<Pose> poses;  ///< in the order of `parts`; empty: as assembled
+  bool full_tolerance = false;
+  double margin = 0;  ///< assembly units
+  std::map<std::string, std::vector<double>> numbers;
+  std::string text;
+};
+
+/// What a step check says about a step, or about the plan as a whole.
+struct PlanVerdict {
+  std::string type;  ///< of the check
+  double weight = 1;
+  double cost = 0;  ///< without the weight
+  bool allowed = true;
+  std::string reason{};
+  std::string failed{};  ///< not empty: the check could not judge, and why; the rest then says nothing
+  std::vector<StepNote> notes{};
+  std::optional<PlanCertificate> certificate{};
+};
+
+/// A check of the objective.
+struct PlanObjectiveItem {
+  std::string type;
+  double weight = 1;
+  bool require = false;
+  ParamSet parameters{};
+  double cost = 0;                    ///< of all steps and of the plan as a whole, without the weight
+  std::optional<PlanVerdict> plan{};  ///< of the plan as a whole; none: the check judges steps only
+};
+
+/// What the steps of a plan were judged by, and the sum.
+struct PlanObjective {
+  std::vector<PlanObjectiveItem> checks;          ///< empty: the plan was not judged
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< how the assembly lies; unit
+  double cost = 0;                                ///< weighted sum over all steps and checks
+  bool empty() const { return checks.empty(); }
+};
+
 /// One step: the parts that move and the parts that this separates.
 struct PlanStep {
   unsigned step = 0;  ///< from 1
@@ -67,6 +110,8 @@ struct PlanStep {
   /// rule (b), and `max_penetration` has no meaning.
   std::optional<PlanForced> forced{};
   std::vector<PlanStepOverlap> overlaps{};  ///< disassembly steps
+  /// Disassembly steps: what the objective says of the step as an assembly operation, which is the step backwards.
+  std::vector<PlanVerdict> checks{};
 };
 
 /// Where a part touches another.
@@ -88,17 +133,6 @@ struct PlanUnsolved {
   double seconds = 0;                        ///< of these, together
   unsigned depth = 0;                        ///< the largest depth that was allowed; 0: none of them had a limit
   std::vector<PlanPlace> places{};  ///< what the part touches at `best_pose`: the deepest contact with each other part
-};
-
-/// A Certificate with names instead of ids. Poses act on input coordinates, in input units; numbers as in Certificate.
-struct PlanCertificate {
-  std::string kind;
-  std::vector<std::string> parts;
-  std::vector<Pose> poses;  ///< in the order of `parts`; empty: as assembled
-  bool full_tolerance = false;
-  double margin = 0;  ///< assembly units
-  std::map<std::string, std::vector<double>> numbers;
-  std::string text;
 };
 
 /// A part of the assembly, as the plan file names it.
@@ -163,6 +197,7 @@ struct Plan {
   std::vector<std::string> remaining;
   std::vector<PlanUnsolved> unsolved;
   std::vector<PlanCertificate> certificates;  ///< proofs that parts cannot be separated
+  PlanObjective objective;
 
   /// Disassembly steps that are forced.
   std::size_t forced_steps() const {

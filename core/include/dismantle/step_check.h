@@ -11,8 +11,10 @@
 #include "dismantle/certificate.h"
 #include "dismantle/disassembly.h"
 #include "dismantle/export.h"
+#include "dismantle/param_value.h"
 #include "dismantle/run_context.h"
 #include "dismantle/simulator.h"
+#include "dismantle/step_note.h"
 
 namespace dismantle {
 
@@ -25,14 +27,6 @@ struct StepQuestion {
   const Trace* path = nullptr;  ///< of the insertion, columns as `moving`; null: only the direction is known
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit; how the assembly lies during the step
   const StepQuestion* previous = nullptr;  ///< the operation before it, itself without a previous one; null: none
-};
-
-/// What a check says for the reader of the plan: hold this part, use this tool, turn the assembly over.
-struct StepNote {
-  std::string kind;  ///< of the check that wrote it, for programs: "hold"
-  std::string text;  ///< one sentence for people
-  std::string data;  ///< a JSON object as text, kept byte for byte; empty: none
-  bool operator==(const StepNote&) const = default;
 };
 
 /// The answer of a check.
@@ -68,8 +62,9 @@ class DISMANTLE_API StepCheck {
 struct ObjectiveItem {
   std::string id;  ///< type of the check
   std::shared_ptr<const StepCheck> check;
-  double weight = 1;     ///< >= 0; of its cost
-  bool require = false;  ///< "not allowed" is a refusal instead of a cost
+  double weight = 1;      ///< >= 0; of its cost
+  bool require = false;   ///< "not allowed" is a refusal instead of a cost
+  ParamSet parameters{};  ///< that it was made with, for the plan to state
 };
 
 /// What an objective says of one step: the verdicts of its checks in their order.
