@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <iterator>
 #include <system_error>
 #include <utility>
 
 #include "dismantle/errors.h"
+#include "dismantle/host/registry.h"
 #include "dismantle/host/suggest.h"
 
 namespace dismantle::app {
@@ -17,14 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Template {
-  const char* kind;
-  const char* id;  // of the plugin in the template's files
-};
-constexpr std::array kTemplates = {
-    Template{"path_planner", "acme.lines"},         Template{"sequence_planner", "acme.in_turn"},
-    Template{"simulator", "acme.stepper"},          Template{"importer", "acme.facets"},
-    Template{"transfer_planner", "acme.two_trees"}, Template{"immobility_prover", "acme.walled_in"}};
 /// "acme.in_turn" -> "acme_in_turn": names of files, targets, macros.
 std::string identifier(std::string id) {
   std::replace(id.begin(), id.end(), '.', '_');
@@ -98,6 +90,17 @@ std::string content(const fs::path& file) {
   return text;
 }
 
+/// The id of the plugin in a template: "acme.in_turn" of the file acme_in_turn.cpp.
+std::string id_of_template(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    std::string name = entry.path().stem().string();
+    if (entry.path().extension() != ".cpp" || name.ends_with("_test")) continue;
+    name[name.find('_')] = '.';
+    return name;
+  }
+  throw Error(folder.string() + ": holds no template");
+}
+
 void open_project_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -130,15 +133,13 @@ void copy(const fs::path& from, const fs::path& to, const Renaming& renamed, std
 
 std::vector<std::string> template_kinds() {
   std::vector<std::string> kinds;
-  for (const Template& t : kTemplates) kinds.emplace_back(t.kind);
+  for (const PluginKind kind : kPluginKinds) kinds.emplace_back(to_string(kind));
   return kinds;
 }
 
 std::vector<std::string> write_plugin_project(const fs::path& folder, const std::string& kind, const std::string& id) {
-  const auto chosen =
-      std::find_if(kTemplates.begin(), kTemplates.end(), [&](const Template& t) { return t.kind == kind; });
-  if (chosen == kTemplates.end()) {
-    const auto kinds = template_kinds();
+  const auto kinds = template_kinds();
+  if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
     const auto near = nearest(kind, kinds);
     throw Error(fmt::format("there is no template for a '{}'{}; there are templates for {}", kind,
                             near ? fmt::format(", did you mean '{}'?", *near) : "", fmt::join(kinds, ", ")));
@@ -151,7 +152,7 @@ std::vector<std::string> write_plugin_project(const fs::path& folder, const std:
     throw Error(fmt::format("{}: the templates are not there; they are installed with Dismantle (cmake --install)",
                             (templates / kind).string()));
   open_project_folder(folder);
-  Renaming renamed(chosen->id, id);
+  Renaming renamed(id_of_template(templates / kind), id);
   renamed.add("acme.example", id);  // the id in the files that all kinds share
   std::vector<std::string> written;
   copy(templates / "common", folder, renamed, written);

@@ -92,6 +92,19 @@ struct RingParams {
   }
 };
 
+class NoJudgement final : public StepCheck {
+ public:
+  StepCheckTraits traits() const noexcept override { return {}; }
+  StepVerdict judge(const StepQuestion&, const RunContext&) const override { return {}; }
+};
+
+struct GravityParams {
+  std::int64_t hands = 1;
+  static void describe(Schema<GravityParams>& s) {
+    s.add("hands", &GravityParams::hands, {.unit = "1", .min = 0, .doc = "Hands that hold parts."});
+  }
+};
+
 struct RandomParams {
   std::int64_t attempts = 3;
   static void describe(Schema<RandomParams>& s) {
@@ -156,4 +169,6 @@ DISMANTLE_PLUGIN("dismantle.fixture", "0.1.0", "MIT", "https://example.org") {
   r.add<TransferPlanner, NoTransfer>("rrt_connect", "Two trees.");
   r.add<ImmobilityProver, NoProof>("overlap_lock", "A point in both.");
   r.add<ImmobilityProver, NoProof, RingParams>("ring", "A ring in a chamber.");
+  r.add<StepCheck, NoJudgement>("directions", "Changes of direction.");
+  r.add<StepCheck, NoJudgement, GravityParams>("gravity", "Does it stand?");
 }

@@ -89,6 +89,41 @@ TEST_F(Config, WhatIsWrongWithProvers) {
   expect("[ring]", {"immobility must be a map of keys, not a list"});
 }
 
+TEST_F(Config, TheObjectiveIsAListOfChecksWithWeights) {
+  using Ids = std::vector<std::string>;
+  EXPECT_TRUE(load_config({}, registry_).objective.empty()) << "any order is as good as another";
+  const std::string file = "schema: 1\nobjective: [{type: gravity, weight: 2, hands: 3, require: true}, directions]\n";
+  const RunConfig config = load_text(file);
+  ASSERT_EQ(ids_of(config.objective), (Ids{"gravity", "directions"}));
+  EXPECT_EQ(config.objective[0].options, (ParamSet{{"weight", 2.0}, {"require", true}}));
+  EXPECT_EQ(config.objective[0].parameters, (ParamSet{{"hands", std::int64_t{3}}}));
+  EXPECT_EQ(config.objective[1].options, (ParamSet{{"weight", 1.0}, {"require", false}}));
+  EXPECT_EQ(config.origins.at("objective.0.hands"), "run.yaml:2");
+  EXPECT_EQ(config.origins.at("objective.1.weight"), "default");
+  const RunConfig set = load_text(file, {"objective.directions.weight=0", "objective.0.hands=0"});
+  EXPECT_EQ(set.objective[1].options.at("weight"), ParamValue{0.0});
+  EXPECT_EQ(set.objective[0].parameters.at("hands"), ParamValue{std::int64_t{0}});
+  EXPECT_EQ(ids_of(load_text(file, {"objective=[directions]"}).objective), (Ids{"directions"}));
+  EXPECT_TRUE(load_text(file, {"objective=[]"}).objective.empty());
+}
+
+TEST_F(Config, WhatIsWrongWithAnObjective) {
+  const auto expect = [&](const std::string& section, const std::vector<std::string>& said) {
+    const std::string errors = errors_of("schema: 1\nobjective: " + section + "\n");
+    for (const std::string& text : said) EXPECT_NE(errors.find(text), std::string::npos) << text << "\nin: " << errors;
+  };
+  expect("[{type: direction, weight: 1}, ring, {weight: 1}]",
+         {"run.yaml:2:20: error: unknown step_check 'direction'; did you mean 'directions'?",
+          "'ring' is an immobility_prover, not a step_check", "objective.2 has no 'type'"});
+  expect(
+      "[{type: gravity, weight: -1, hand: 2}, {type: directions, require: 1}]",
+      {"objective.0.weight must be >= 0, got -1", "unknown key 'hand' in objective.0 (gravity); did you mean 'hands'?",
+       "objective.1.require must be true or false, got '1'"});
+  expect("[gravity, directions, {type: gravity, hands: 2}]", {"run.yaml:2", "objective lists 'gravity' twice"});
+  expect("gravity", {"run.yaml:2:12: error: objective must be a list of step_checks, got a value"});
+  expect("{gravity: {weight: 2}}", {"objective has no item 'gravity': it is empty"});
+}
+
 TEST_F(Config, AllErrorsAtOnce) {
   const std::string text = R"(schema: 1
 simulater: {type: sdf_penalty}
@@ -165,10 +200,10 @@ TEST_F(Config, Capabilities) {
   EXPECT_EQ(errors_of("schema: 1\nsimulator: {type: geometry_only}\npath_planner: {type: bfs}\n"),
             "run.yaml:3:22: error: path_planner 'bfs' needs a simulator with dynamics, which 'geometry_only' does not "
             "have\n");
-  EXPECT_EQ(
-      errors_of("schema: 1\nsimulator: {type: geometry_only}\npath_planner: {type: pairs}\n"),
-      "run.yaml:3:22: error: path_planner 'pairs' needs a simulator with 2 parts moving simultaneously, which 'geometry_only' "
-      "does not have\n");
+  EXPECT_EQ(errors_of("schema: 1\nsimulator: {type: geometry_only}\npath_planner: {type: pairs}\n"),
+            "run.yaml:3:22: error: path_planner 'pairs' needs a simulator with 2 parts moving simultaneously, which "
+            "'geometry_only' "
+            "does not have\n");
   EXPECT_EQ(errors_of("schema: 1\nsimulator: {type: geometry_only}\npath_planner: {type: t_rrt}\n"), "");
 }
 

@@ -28,6 +28,7 @@ class Resolved : public testing_support::Scratch {
     EXPECT_EQ(a.transfer_planner.type, b.transfer_planner.type);
     EXPECT_EQ(a.transfer_planner.parameters, b.transfer_planner.parameters);
     EXPECT_EQ(a.provers, b.provers);
+    EXPECT_EQ(a.objective, b.objective);
     ASSERT_EQ(a.layout.poses.size(), b.layout.poses.size());
     for (const auto& [part, pose] : a.layout.poses) {
       EXPECT_EQ(pose.t, b.layout.poses.at(part).t);
@@ -88,6 +89,18 @@ TEST_F(Resolved, Defaults) {
   EXPECT_NE(text.find("# plugin dismantle.fixture 0.1.0, libfixture.so, sha256 "), std::string::npos);
   EXPECT_EQ(text.find(GOOD_FOLDER), std::string::npos) << "holds a path of the build";
   expect_same(config, load_text(text));
+}
+
+TEST_F(Resolved, AnObjectiveRoundTrips) {
+  const RunConfig none = load_text("schema: 1\n");
+  EXPECT_NE(resolved(none).find("\nobjective: []"), std::string::npos) << resolved(none);
+  const RunConfig config =
+      load_text("schema: 1\nobjective: [directions, {type: gravity, weight: 0.25, hands: 3, require: true}]\n");
+  const std::string text = resolved(config);
+  const RunConfig again = load_text(text);
+  expect_same(config, again);
+  ASSERT_EQ(again.objective.size(), 2u) << text;
+  EXPECT_EQ(without_comments(resolved(again)), without_comments(text));
 }
 
 TEST_F(Resolved, SaysWhereValuesCameFrom) {

@@ -28,7 +28,7 @@ std::map<std::string, std::string> pages(const dismantle::Registry& registry) {
       all[file] = dismantle::describe_markdown(*type, registry);
     }
   }
-  index += "\n## configuration\n\n- [sections](sections.md): `assembly`, `layout`, `run`, `verify`, `immobility`\n";
+  index += "\n## configuration\n\n- [sections](sections.md): the sections that are not one plugin\n";
   index += "- [dismantle.schema.json](dismantle.schema.json): JSON Schema for editors\n";
   all["README.md"] = index;
   all["sections.md"] = dismantle::describe_sections_markdown();

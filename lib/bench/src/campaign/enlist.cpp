@@ -60,13 +60,9 @@ void add_uses(const std::string& place, PluginKind kind, const PluginChoice& cho
 
 std::vector<PluginUse> plugins_of(const RunConfig& config, const Registry& registry,
                                   std::map<fs::path, std::string>& hashes) {
-  const PluginChoice* choices[] = {&config.simulator, &config.path_planner, &config.sequence_planner,
-                                   &config.transfer_planner};
   std::vector<PluginUse> out;
-  for (std::size_t i = 0; i < plugin_sections().size(); ++i) {
-    const auto& section = plugin_sections()[i];
-    add_uses(section.name, section.kind, *choices[i], registry, hashes, out);
-  }
+  for (const PluginSection& section : plugin_sections())
+    if (section.one != nullptr) add_uses(section.name, section.kind, config.*section.one, registry, hashes, out);
   return out;
 }
 

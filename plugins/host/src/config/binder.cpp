@@ -171,6 +171,11 @@ std::optional<ParamValue> Binder::value(const ParamSpec& spec, const ConfigNode&
   return bound;
 }
 
+std::optional<ParamValue> Binder::list(const ParamSpec& spec, const ConfigNode* node, const std::string& name) {
+  if (node != nullptr) return list(spec, *node, name, &spec.fallback, "default");
+  return defaulted(spec, spec.fallback, nothing_said({}), name, "default");
+}
+
 std::optional<ParamValue> Binder::list(const ParamSpec& spec, const ConfigNode& node, const std::string& name,
                                        const ParamValue* below, const std::string& origin) {
   const auto* under = below != nullptr ? std::get_if<std::vector<PluginChoice>>(below) : nullptr;

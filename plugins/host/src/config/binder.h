@@ -42,6 +42,10 @@ class Binder {
   std::optional<PluginChoice> choice(PluginKind kind, const std::vector<ParamSpec>& options, const ConfigNode& node,
                                      const std::string& name, const PluginChoice* below, const std::string& origin);
 
+  /// Binds a list of plugins that is no key of a section (`node` may be nullptr: the default). On an error: nothing,
+  /// and a diagnostic.
+  std::optional<ParamValue> list(const ParamSpec& spec, const ConfigNode* node, const std::string& name);
+
  private:
   /// One of several parameter sets whose values are in the same map.
   struct Part {

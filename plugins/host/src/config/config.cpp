@@ -27,9 +27,11 @@ class Loader {
   RunConfig load() {
     check_top_level();
     read_plugins();
-    for (const auto& section : plugin_sections()) choose(section);
+    for (const auto& section : plugin_sections())
+      if (section.one != nullptr) choose(section);
     collect_homes();
-    for (const auto& section : plugin_sections()) bind_plugin(section);
+    for (const auto& section : plugin_sections())
+      if (section.one != nullptr) bind_plugin(section);
     bind_importers();
     for (const auto& [name, specs] : fixed_sections()) {
       const ConfigNode* section = node(name);
@@ -40,13 +42,8 @@ class Loader {
       }
       config_.sections[name] = binder().section(specs, section, {name, "", ""});
     }
-    ParamSet& immobility = config_.sections["immobility"];
-    immobility = binder().section(immobility_parameters(registry_), node("immobility"), {"immobility", "", ""});
-    if (const auto found = immobility.find("provers"); found != immobility.end()) {
-      config_.provers = std::get<std::vector<PluginChoice>>(std::move(found->second));
-      immobility.erase(found);
-      check_provers();
-    }
+    for (const auto& section : plugin_sections())
+      if (section.many != nullptr) bind_list(section);
     if (const ConfigNode* section = node("constraints"); section != nullptr)
       config_.constraints = read_constraints(*section, config_.constraint_names, problems_);
     check_capabilities();
@@ -65,18 +62,28 @@ class Loader {
     return member == nullptr ? nullptr : &member->value;
   }
 
-  /// A prover may be listed only once.
-  void check_provers() {
+  void bind_list(const PluginSection& section) {
+    std::vector<PluginChoice>& list = config_.*section.many;
+    std::optional<ParamValue> bound;
+    if (section.list.empty()) {
+      bound = binder().list(plugin_list(section, registry_), node(section.name), section.name);
+    } else {
+      ParamSet& values = config_.sections[section.name];
+      values = binder().section(list_section(section, registry_), node(section.name), {section.name, "", ""});
+      if (auto found = values.extract(section.list)) bound = std::move(found.mapped());
+    }
+    if (!bound) return;
+    list = std::get<std::vector<PluginChoice>>(std::move(*bound));
     std::set<std::string> seen;
-    for (std::size_t k = 0; k < config_.provers.size(); ++k)
-      if (const std::string& type = config_.provers[k].type; !seen.insert(type).second)
-        problems_.push_back({config_.origins[fmt::format("immobility.provers.{}.type", k)], 0, 0,
-                             fmt::format("immobility.provers lists '{}' twice", type)});
+    for (std::size_t k = 0; k < list.size(); ++k)
+      if (!seen.insert(list[k].type).second)
+        problems_.push_back({config_.origins[fmt::format("{}.{}.type", section.key(), k)], 0, 0,
+                             fmt::format("{} lists '{}' twice", section.key(), list[k].type)});
   }
 
   void check_top_level() {
-    std::vector<std::string> known = {"schema", "extends", "plugins", "immobility", "importers", "constraints"};
-    for (const auto& section : plugin_sections()) known.emplace_back(section.name);
+    std::vector<std::string> known = {"schema", "extends", "plugins", "importers", "constraints"};
+    for (const auto& section : plugin_sections()) known.push_back(section.name);
     for (const auto& section : fixed_sections()) known.push_back(section.first);
     for (const auto& member : root_.members)
       if (std::find(known.begin(), known.end(), member.key) == known.end()) unknown_top_.push_back({&member, known});
@@ -129,7 +136,7 @@ class Loader {
     const ConfigNode* map = node(section.name);
     if (map != nullptr) chosen.mark = map->mark;
     const ConfigMember* type = map != nullptr && map->is_map() ? map->find("type") : nullptr;
-    std::string id = section.default_id;
+    std::string id = section.defaults.front();
     std::string origin = "default";
     if (type != nullptr) {
       chosen.mark = type->value.mark;
@@ -143,19 +150,13 @@ class Loader {
     }
     chosen.type = registry_.lookup(section.kind, id);
     if (chosen.type == nullptr) problems_.push_back(chosen.mark.error(registry_.why_missing(section.kind, id)));
-    config_.origins[std::string(section.name) + ".type"] = origin;
-    choice(section.kind).type = id;
-  }
-
-  PluginChoice& choice(PluginKind kind) {
-    if (kind == PluginKind::simulator) return config_.simulator;
-    if (kind == PluginKind::path_planner) return config_.path_planner;
-    return kind == PluginKind::sequence_planner ? config_.sequence_planner : config_.transfer_planner;
+    config_.origins[section.name + ".type"] = origin;
+    (config_.*section.one).type = id;
   }
 
   void collect_homes() {
     for (const auto& section : plugin_sections()) {
-      const auto* type = chosen_[section.name].type;
+      const auto* type = section.one == nullptr ? nullptr : chosen_[section.name].type;
       if (type == nullptr) continue;
       for (const auto& spec : type->type.params) {
         homes_[spec.name].push_back(fmt::format("{} ({})", section.name, type->type.id));
@@ -208,7 +209,7 @@ class Loader {
             map->mark.error(fmt::format("{} must be a map of keys, not {}", section.name, map->kind_name())));
       return;
     }
-    choice(section.kind).parameters = binder().section(
+    (config_.*section.one).parameters = binder().section(
         type->type.params, map, {section.name, type->type.id, source_text(*type)}, default_origin(*type));
   }
 
@@ -239,9 +240,8 @@ class Loader {
     const auto* simulator = chosen_["simulator"].type;
     if (simulator == nullptr) return;
     for (const auto& section : plugin_sections()) {
-      const Chosen& chosen = chosen_[section.name];
-      if (chosen.type == nullptr) continue;
-      check_capabilities(section.kind, choice(section.kind), chosen.mark, simulator->type);
+      if (section.one == nullptr || chosen_[section.name].type == nullptr) continue;
+      check_capabilities(section.kind, config_.*section.one, chosen_[section.name].mark, simulator->type);
     }
   }
 

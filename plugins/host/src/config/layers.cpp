@@ -233,11 +233,12 @@ std::string named_type(const ConfigNode& choice) {
 
 void merge_config(ConfigNode& base, ConfigNode over, std::vector<Diagnostic>& problems) {
   for (const auto& section : plugin_sections()) {  // without a type, the default type applies
+    if (section.one == nullptr) continue;
     const auto* below = base.find(section.name);
     const auto* above = over.find(section.name);
     if (below == nullptr || above == nullptr || !below->value.is_map() || !above->value.is_map()) continue;
     if (below->value.find("type") == nullptr && above->value.find("type") != nullptr &&
-        named_type(above->value) != section.default_id)
+        named_type(above->value) != section.defaults.front())
       base.erase(section.name);
   }
   merge_maps(base, std::move(over), "", problems);

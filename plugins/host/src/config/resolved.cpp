@@ -56,9 +56,21 @@ class Writer {
     yaml_.values(section, 2, specs, params);
   }
 
-  void plugin(const PluginSection& section, const PluginChoice& choice) {
+  void plugins(const PluginSection& section, const RunConfig& config, const Registry& registry) {
+    const std::vector<ParamSpec> specs =
+        section.one != nullptr ? std::vector<ParamSpec>() : list_section(section, registry);
+    if (section.one == nullptr && section.list.empty()) {
+      yaml_.values("", 0, specs, {{section.name, config.*section.many}});
+      return;
+    }
     line(fmt::format("{}:", section.name));
-    yaml_.choice(section.name, 2, section.kind, {}, choice);
+    if (section.one != nullptr) {
+      yaml_.choice(section.name, 2, section.kind, {}, config.*section.one);
+    } else {
+      ParamSet values = config.sections.at(section.name);
+      values[section.list] = config.*section.many;
+      yaml_.values(section.name, 2, specs, values);
+    }
   }
 
   /// Writes only non-default values, so that a file for mesh input does not need the CAD importer.
@@ -69,12 +81,6 @@ class Writer {
       line(fmt::format("  {}:", plain_or_quoted(id)));
       yaml_.values("importers." + id, 4, registry.find(PluginKind::importer, id).type.params, values);
     }
-  }
-
-  void immobility(ParamSet values, const std::vector<PluginChoice>& provers, const Registry& registry) {
-    line("immobility:");
-    values["provers"] = provers;
-    yaml_.values("immobility", 2, immobility_parameters(registry), values);
   }
 
   const std::string& text() const { return yaml_.text(); }
@@ -125,10 +131,7 @@ std::string resolved_yaml(const RunConfig& config, const Registry& registry, con
   };
   writer.importers(import_params_of(config, registry), registry);
   fixed("assembly");
-  const PluginChoice* choices[] = {&config.simulator, &config.path_planner, &config.sequence_planner,
-                                   &config.transfer_planner};
-  for (std::size_t i = 0; i < plugin_sections().size(); ++i) writer.plugin(plugin_sections()[i], *choices[i]);
-  writer.immobility(config.sections.at("immobility"), config.provers, registry);
+  for (const PluginSection& section : plugin_sections()) writer.plugins(section, config, registry);
   fixed("layout");
   if (!config.layout.poses.empty()) {
     writer.line("  poses:");

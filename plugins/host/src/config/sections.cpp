@@ -117,11 +117,58 @@ const std::vector<std::pair<std::string, std::vector<ParamSpec>>>& fixed_section
 
 const std::vector<PluginSection>& plugin_sections() {
   static const std::vector<PluginSection> sections = {
-      {"simulator", PluginKind::simulator, "sdf_penalty"},
-      {"path_planner", PluginKind::path_planner, "guided"},
-      {"sequence_planner", PluginKind::sequence_planner, "blocking"},
-      {"transfer_planner", PluginKind::transfer_planner, "rrt_connect"}};
+      {"simulator", PluginKind::simulator, {"sdf_penalty"}, &RunConfig::simulator},
+      {"path_planner", PluginKind::path_planner, {"guided"}, &RunConfig::path_planner},
+      {"sequence_planner", PluginKind::sequence_planner, {"blocking"}, &RunConfig::sequence_planner},
+      {"transfer_planner", PluginKind::transfer_planner, {"rrt_connect"}, &RunConfig::transfer_planner},
+      {.name = "immobility",
+       .kind = PluginKind::immobility_prover,
+       .defaults = {"overlap_lock", "enclosed_ball", "ring", "spool", "hook", "disc", "configuration_cells",
+                    "interlock_lp"},
+       .many = &RunConfig::provers,
+       .list = "provers",
+       .doc = "Immobility provers, in the order in which they are asked; [] = none.",
+       .beside = Schema<ProofOptions>().specs()},
+      {.name = "objective",
+       .kind = PluginKind::step_check,
+       .defaults = {},
+       .many = &RunConfig::objective,
+       .doc = "Step checks that judge each step as an assembly operation; [] = any order without collisions is as good "
+              "as another.",
+       .options = Schema<ObjectiveOptions>().specs()}};
   return sections;
+}
+
+void ObjectiveOptions::describe(Schema<ObjectiveOptions>& s) {
+  s.add("weight", &ObjectiveOptions::weight, {.unit = "1", .min = 0, .doc = "Factor on the cost of this check."});
+  s.add("require", &ObjectiveOptions::require, {.doc = "A step that the check does not allow is refused."});
+}
+
+ParamSpec plugin_list(const PluginSection& section, const Registry& registry) {
+  ParamSpec spec;
+  spec.name = section.list.empty() ? section.name : section.list;
+  spec.type = ParamType::plugins;
+  spec.plugin_kind = section.kind;
+  spec.options = section.options;
+  spec.may_be_empty = true;
+  spec.doc = section.doc;
+  std::vector<PluginChoice> fallback;
+  for (const std::string& id : section.defaults)
+    if (registry.lookup(section.kind, id) != nullptr) fallback.push_back({id, {}, {}});
+  spec.fallback = std::move(fallback);
+  return spec;
+}
+
+std::vector<ParamSpec> list_section(const PluginSection& section, const Registry& registry) {
+  std::vector<ParamSpec> all = {plugin_list(section, registry)};
+  all.insert(all.end(), section.beside.begin(), section.beside.end());
+  return all;
+}
+
+std::vector<PluginChoice> default_list(std::vector<PluginChoice> RunConfig::*list, const Registry& registry) {
+  for (const PluginSection& section : plugin_sections())
+    if (section.many == list) return std::get<std::vector<PluginChoice>>(plugin_list(section, registry).fallback);
+  return {};
 }
 
 }  // namespace dismantle

@@ -52,7 +52,7 @@ void YamlWriter::values(const std::string& path, std::size_t indent, const std::
   for (const auto& spec : specs) {
     const auto it = values.find(spec.name);
     if (it == values.end()) continue;
-    const std::string place = path + "." + spec.name, lead = blanks + spec.name + ": ";
+    const std::string place = path.empty() ? spec.name : path + "." + spec.name, lead = blanks + spec.name + ": ";
     if (const auto* text = std::get_if<std::string>(&it->second)) {
       row(lead, spec.type == ParamType::choice ? plain_or_quoted(*text) : quoted(*text), place);
     } else if (const auto* one = std::get_if<PluginChoice>(&it->second)) {

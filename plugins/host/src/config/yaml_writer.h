@@ -27,7 +27,8 @@ class YamlWriter {
   void line(const std::string& text) { out_ += text + "\n"; }
   /// Writes `lead` + `text`, with the origin of `path` as a comment.
   void row(const std::string& lead, const std::string& text, const std::string& path);
-  /// Writes the members of the map at `path` in declaration order, indented by `indent` blanks.
+  /// Writes the members of the map at `path` in declaration order, indented by `indent` blanks. `path`
+  /// is empty for the file itself.
   void values(const std::string& path, std::size_t indent, const std::vector<ParamSpec>& specs, const ParamSet& values);
   /// Writes the members of a choice: comment, type, options, parameters.
   void choice(const std::string& path, std::size_t indent, PluginKind kind, const std::vector<ParamSpec>& options,

@@ -57,9 +57,15 @@ std::string describe_sections_markdown() {
   std::string out =
       "# Sections of a configuration\n\nWhat they mean together: [configuration.md](../configuration.md).\n";
   for (const auto& [name, specs] : fixed_sections()) out += fmt::format("\n## {}\n\n{}", name, table(specs));
-  out += fmt::format("\n## immobility\n\n`provers`: {}\n\n{}",
-                     "list of immobility provers in the order of asking, `[]` = none; all of this project by default.",
-                     table(Schema<ProofOptions>().specs()));
+  for (const PluginSection& section : plugin_sections()) {
+    if (section.many == nullptr) continue;
+    out += fmt::format("\n## {}\n\nList of `{}`{}. {} Default: `[{}]`.\n", section.name, to_string(section.kind),
+                       section.list.empty() ? "" : " at the key `" + section.list + "`", section.doc,
+                       joined(section.defaults));
+    if (!section.options.empty())
+      out += "\nKeys of each item, beside `type` and the parameters of its type:\n\n" + table(section.options);
+    if (!section.beside.empty()) out += "\n" + table(section.beside);
+  }
   return out;
 }
 

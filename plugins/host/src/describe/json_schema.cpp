@@ -99,7 +99,12 @@ Json Definitions::choice_of(PluginKind kind, const std::vector<ParamSpec>& optio
 }
 
 Json plugin_section(const PluginSection& section, const Registry& registry, Definitions& definitions) {
-  Json all = alternatives(registry, section.kind, {}, section.default_id, definitions);
+  if (section.many != nullptr) {
+    const std::vector<ParamSpec> specs = list_section(section, registry);
+    return section.list.empty() ? parameter_schema(specs.front(), section.name, definitions)
+                                : object(properties_of(specs, section.name, definitions));
+  }
+  Json all = alternatives(registry, section.kind, {}, section.defaults.front(), definitions);
   if (all.empty()) return {{"type", "object"}};
   return {{"oneOf", std::move(all)}};
 }
@@ -124,7 +129,6 @@ std::string json_schema(const Registry& registry) {
       importers[type->type.id] = object(properties_of(type->type.params, "importers." + type->type.id, definitions));
   properties["importers"] = object(std::move(importers));
   properties["importers"]["description"] = "Parameters of importers, by id.";
-  properties["immobility"] = object(properties_of(immobility_parameters(registry), "immobility", definitions));
   const nlohmann::ordered_json name = {{"type", "string"}};
   const nlohmann::ordered_json names = {{"type", "array"}, {"items", name}};
   const nlohmann::ordered_json lists = {{"type", "array"}, {"items", names}};

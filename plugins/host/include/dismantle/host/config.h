@@ -33,6 +33,13 @@ struct RunSettings {
   DISMANTLE_API static void describe(Schema<RunSettings>& s);
 };
 
+/// What an item of `objective:` says beside the parameters of its check.
+struct ObjectiveOptions {
+  double weight = 1;
+  bool require = false;
+  DISMANTLE_API static void describe(Schema<ObjectiveOptions>& s);
+};
+
 /// Two parts that may penetrate each other by `depth` (input units, >= 0), whatever their initial overlap.
 struct NamedOverlap {
   std::string a, b;
@@ -67,7 +74,8 @@ struct ConstraintName {
 struct RunConfig {
   /// Parameters are complete, also those of nested plugins.
   PluginChoice simulator, path_planner, sequence_planner, transfer_planner;
-  std::vector<PluginChoice> provers;  ///< immobility provers in the order in which they are asked; empty: no proofs
+  std::vector<PluginChoice> provers;    ///< immobility provers in the order in which they are asked; empty: no proofs
+  std::vector<PluginChoice> objective;  ///< step checks; their options are ObjectiveOptions; empty: none
   PrepareOptions assembly;
   RunSettings run;
   VerifyOptions verify;
@@ -117,18 +125,30 @@ DISMANTLE_API std::string resolved_yaml(const RunConfig& config, const Registry&
 
 /// Names and parameter declarations of the sections with fixed parameters, in the order of the file.
 DISMANTLE_API const std::vector<std::pair<std::string, std::vector<ParamSpec>>>& fixed_sections();
-/// A section that chooses a plugin, and the id that it has by default.
+/// A section that chooses plugins of one kind: one plugin, or a list of them.
 struct PluginSection {
-  const char* name;
+  std::string name;  ///< of the section
   PluginKind kind;
-  const char* default_id;
+  std::vector<std::string> defaults;       ///< ids; of a list: those that are available
+  PluginChoice RunConfig::*one = nullptr;  ///< null: a list
+  std::vector<PluginChoice> RunConfig::*many = nullptr;
+  std::string list{};                ///< key of the list in its section; empty: the section itself is the list
+  std::string doc{};                 ///< of the list
+  std::vector<ParamSpec> options{};  ///< keys of each item of the list, beside the parameters of its type
+  std::vector<ParamSpec> beside{};   ///< keys of the section beside the list
+  /// "path_planner", "immobility.provers".
+  std::string key() const { return list.empty() ? name : name + "." + list; }
 };
-/// The sections that name a plugin, in the order of the file.
+/// The sections that choose plugins, in the order of the file. A new kind of plugin is one entry, and a member of
+/// RunConfig. (`importers` chooses nothing: all of them are used.)
 DISMANTLE_API const std::vector<PluginSection>& plugin_sections();
-/// The parameter `provers` of the section `immobility`. Its default: all built-in provers that are available.
-DISMANTLE_API ParamSpec provers_parameter(const Registry& registry);
-/// All parameters of the section `immobility:`.
-DISMANTLE_API std::vector<ParamSpec> immobility_parameters(const Registry& registry);
+/// The declaration of the list of a section.
+DISMANTLE_API ParamSpec plugin_list(const PluginSection& section, const Registry& registry);
+/// All keys of a section with a list: the list, and those beside it.
+DISMANTLE_API std::vector<ParamSpec> list_section(const PluginSection& section, const Registry& registry);
+/// The types that a list names by default, if they are available.
+DISMANTLE_API std::vector<PluginChoice> default_list(std::vector<PluginChoice> RunConfig::*list,
+                                                     const Registry& registry);
 inline constexpr std::int64_t kConfigSchema = 1;  ///< the value of the key `schema`
 
 }  // namespace dismantle

@@ -16,8 +16,7 @@
 
 namespace dismantle {
 
-/// The key of the kind in a configuration: "simulator", "path_planner", "sequence_planner",
-/// "transfer_planner", "immobility_prover", "importer".
+/// The name of the kind, as in DISMANTLE_PLUGIN_KINDS: "path_planner".
 DISMANTLE_API std::string_view to_string(PluginKind kind);
 
 /// A plugin file that was accepted.

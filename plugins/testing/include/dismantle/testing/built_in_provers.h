@@ -26,8 +26,7 @@ inline const Registry& plugin_registry() {
 inline const std::vector<NamedProver>& built_in_provers() {
   static const std::vector<NamedProver> all = [] {
     std::vector<NamedProver> provers;
-    const ParamSpec list = provers_parameter(plugin_registry());
-    for (const PluginChoice& choice : std::get<std::vector<PluginChoice>>(list.fallback))
+    for (const PluginChoice& choice : default_list(&RunConfig::provers, plugin_registry()))
       provers.push_back({choice.type, plugin_registry().create<ImmobilityProver>(choice.type)});
     return provers;
   }();
