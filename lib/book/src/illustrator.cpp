@@ -24,7 +24,7 @@ std::string Viewpoint::words() const {
 }
 
 Illustrator::Illustrator(const Assembly& assembly, bool y_up)
-    : assembly_(assembly), y_up_(y_up), placements_(find_congruent(assembly.parts)) {
+    : assembly_(assembly), y_up_(y_up), placements_(geometry::find_congruent(assembly.parts)) {
   std::set<std::array<int, 3>> different;
   for (const Part& part : assembly.parts)
     if (part.colour) different.insert({part.colour->r, part.colour->g, part.colour->b});
@@ -46,7 +46,7 @@ Illustrator::Illustrator(const Assembly& assembly, bool y_up)
 }
 
 DrawnBody Illustrator::body_of(const PlacedPart& placed, bool marked) const {
-  const ShapePlacement& placement = placements_[placed.part];
+  const geometry::ShapePlacement& placement = placements_[placed.part];
   const Pose shape = assembly_.normalization.pose_to_input(placement.pose);
   const Pose local{centers_[placement.original], Eigen::Quaterniond::Identity()};
   return {&meshes_[placement.original], placed.pose * shape * local,

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "dismantle/assembly.h"
+#include "dismantle/geometry/congruent_parts.h"
 #include "dismantle/plan.h"
-#include "dismantle/plan_io/congruent.h"
 #include "instructions.h"
 #include "raster.h"
 #include "style.h"
@@ -65,7 +65,7 @@ class Illustrator {
   StepPictures step(const BookStep& step, bool disassembly, double scale = 1) const;
   const PictureStyle& style() const { return style_; }
   /// By part: the first part of the same shape.
-  const std::vector<ShapePlacement>& shapes() const { return placements_; }
+  const std::vector<geometry::ShapePlacement>& shapes() const { return placements_; }
 
  private:
   DrawnBody body_of(const PlacedPart& placed, bool marked) const;
@@ -84,7 +84,7 @@ class Illustrator {
   const Assembly& assembly_;
   PictureStyle style_;
   bool y_up_;
-  std::vector<ShapePlacement> placements_;
+  std::vector<geometry::ShapePlacement> placements_;
   std::vector<ShadedMesh> meshes_;        // by part; empty unless it is the first part of its shape
   std::vector<Eigen::Vector3d> centers_;  // by part: origin of its mesh, input units
   std::vector<Eigen::Vector3f> colours_;  // by part, sRGB

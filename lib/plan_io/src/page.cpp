@@ -11,8 +11,8 @@
 #include <numbers>
 
 #include "dismantle/errors.h"
+#include "dismantle/geometry/congruent_parts.h"
 #include "dismantle/plan_io/base64.h"
-#include "dismantle/plan_io/congruent.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/shading.h"
 
@@ -89,13 +89,13 @@ PageJson geometry_json(const Plan& plan, const Assembly& assembly) {
   std::map<std::string, std::size_t> index_of;
   for (std::size_t i = 0; i < assembly.parts.size(); ++i) index_of.emplace(assembly.parts[i].name, i);
   const Normalization& units = assembly.normalization;
-  const std::vector<ShapePlacement> placements = find_congruent(assembly.parts);
+  const std::vector<geometry::ShapePlacement> placements = geometry::find_congruent(assembly.parts);
   std::map<std::size_t, std::size_t> shape_of;  // by original part
   PageJson shapes = PageJson::array(), parts = PageJson::array();
   for (const PlanPart& named : plan.assembly.parts) {
     const auto it = index_of.find(named.name);
     if (it == index_of.end()) throw InputError(named.name, "the plan has a part that the assembly lacks");
-    const ShapePlacement& placement = placements[it->second];
+    const geometry::ShapePlacement& placement = placements[it->second];
     const Part& original = assembly.parts[placement.original];
     const Eigen::Vector3d center = units.to_input(original.mesh->box().center());
     const auto [shape, fresh] = shape_of.try_emplace(placement.original, shapes.size());

@@ -53,7 +53,7 @@ GlbScene::GlbScene(const Plan& plan, const Assembly& assembly, const InputFrame&
   nodes_.push_back(nullptr);
 
   const std::vector<GlbPaint> paints = paint_parts(plan, assembly);
-  const std::vector<ShapePlacement> placements = find_congruent(assembly.parts);
+  const std::vector<geometry::ShapePlacement> placements = geometry::find_congruent(assembly.parts);
   std::map<std::size_t, GlbJson> surface_of;                           // by original part
   std::map<std::string, std::size_t> material_of;                      // by its text
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> mesh_of;  // by original part and material

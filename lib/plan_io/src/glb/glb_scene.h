@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "dismantle/assembly.h"
+#include "dismantle/geometry/congruent_parts.h"
 #include "dismantle/plan.h"
-#include "dismantle/plan_io/congruent.h"
 #include "dismantle/plan_io/input_frame.h"
 #include "glb/glb_file.h"
 

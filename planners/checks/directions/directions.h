@@ -1,0 +1,26 @@
+/// Step check: does the direction of insertion change?
+#pragma once
+
+#include "dismantle/parameters.h"
+#include "dismantle/step_check.h"
+
+namespace dismantle::checks {
+
+struct DirectionsParams {
+  double angle = 0.1;
+  static void describe(Schema<DirectionsParams>& s);
+};
+
+/// Costs 1 when parts are put in along another direction than in the operation before. A rotation in place has no
+/// direction, and costs nothing.
+class Directions final : public StepCheck {
+ public:
+  explicit Directions(const DirectionsParams& params = {}) : params_(params) {}
+  StepCheckTraits traits() const noexcept override { return {.remembers_direction = true}; }
+  StepVerdict judge(const StepQuestion& question, const RunContext& context) const override;
+
+ private:
+  DirectionsParams params_;
+};
+
+}  // namespace dismantle::checks
