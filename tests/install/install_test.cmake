@@ -40,7 +40,7 @@ build("${SOURCE_DIR}/../plugins_good/acme_straight" acme_straight)
 
 # What `plugins new` writes is built, loaded, obeys the laws of its kind and passes its own tests, as it stands.
 foreach(project sequence_planner:foo.one_by_one simulator:foo.world.small importer:foo.text transfer_planner:foo.carry
-    immobility_prover:foo.held)
+    immobility_prover:foo.held step_check:foo.downwards)
   string(REPLACE ":" ";" project "${project}")
   list(POP_FRONT project kind id)
   string(REPLACE "." "_" name "${id}")

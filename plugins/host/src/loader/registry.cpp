@@ -63,9 +63,9 @@ void add_program_type(PluginFile file, PluginType type) {
 
 std::string_view to_string(PluginKind kind) {
   switch (kind) {
-#define DISMANTLE_NAME(kind, Interface) \
-  case PluginKind::kind:                \
-    return #kind;
+#define DISMANTLE_NAME(name, Interface) \
+  case PluginKind::name:                \
+    return #name;
     DISMANTLE_PLUGIN_KINDS(DISMANTLE_NAME)
 #undef DISMANTLE_NAME
   }

@@ -23,6 +23,7 @@
 #include "dismantle/plugin_ref.h"
 #include "dismantle/sequence_planner.h"
 #include "dismantle/simulator.h"
+#include "dismantle/step_check.h"
 #include "dismantle/transfer_planner.h"
 
 namespace dismantle {

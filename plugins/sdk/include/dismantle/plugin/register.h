@@ -11,16 +11,19 @@
 namespace dismantle::abi {
 
 /// Hash of the layout of the types that cross the boundary.
-inline constexpr std::uint64_t kBoundaryLayout =
-    layout_hash<Triangle, Mesh, Pose, Aabb, Part, Normalization, InitialOverlap, ExcludedPart, Assembly, Rgba, RawPart,
-                Importer, Capabilities, PlacedPart, Scene, BodyState, State, Wrench, Action, Contact, Trace, StepReport,
-                World, PreparedAssembly, Simulator, Outcome, Budget, VerifiedPath, PathCheck, PathChecker, SearchState,
-                Goal, PathQuery, SearchStats, PathResult, PathPlannerTraits, SearchStatus, PathSearch, PathPlanner,
-                FunctionPathPlanner, TransferQuery, TransferPlanner, Constraints, Attempt, AttemptResult, OracleCounts,
-                PathOracle, Removal, Unsolved, SequenceResult, SequenceObserver, SequencePlanner, Certificate,
-                ProverTraits, SeparationQuery, SeparationQuestion, PartMemo, ImmobilityProver, Deadline, CancelToken,
-                Rng, ProgressEvent, RunContext, Executor, ParamValue, ParamSet, ParamChoice, ParamSpec, PluginChoice,
-                PluginRef<PathPlanner>, TypeTraits, PluginType, Registrar>();
+#define DISMANTLE_INTERFACE(kind, Interface) Interface,
+inline constexpr std::uint64_t kBoundaryLayout = layout_hash<
+    Triangle, Mesh, Pose, Aabb, Part, Normalization, InitialOverlap, ExcludedPart, Assembly, Rgba, RawPart,
+    Capabilities, PlacedPart, Scene, BodyState, State, Wrench, Action, Contact, Trace, StepReport, World,
+    PreparedAssembly, Outcome, Budget, VerifiedPath, PathCheck, PathChecker, SearchState, Goal, PathQuery, SearchStats,
+    PathResult, PathPlannerTraits, SearchStatus, PathSearch, FunctionPathPlanner, TransferQuery, Constraints,
+    DisassemblyStep, Disassembly, MotionDepth, MotionDepthOptions, ForcedCut, Attempt, ForcedRemoval, AttemptResult,
+    OracleCounts, ForcingOracle, PathOracle, Removal, Unsolved, StepQuestion, StepNote, StepVerdict, StepCheckTraits,
+    ObjectiveItem, ObjectiveVerdict, Objective, Operation, SequenceQuery, SequencePlannerTraits, SequenceResult,
+    SequenceObserver, Certificate, ProverTraits, SeparationQuery, SeparationQuestion, PartMemo, Deadline, CancelToken,
+    Rng, ProgressEvent, RunContext, Executor, ParamValue, ParamSet, ParamChoice, ParamSpec, PluginChoice,
+    PluginRef<PathPlanner>, TypeTraits, PluginType, DISMANTLE_PLUGIN_KINDS(DISMANTLE_INTERFACE) Registrar>();
+#undef DISMANTLE_INTERFACE
 /// The ABI tag of this translation unit.
 inline constexpr Text kTag = make_tag(kBoundaryLayout);
 
