@@ -24,6 +24,10 @@ void write(const Json& value, std::size_t depth, std::string& out) {
     out += number_text(value.get<double>());
     return;
   }
+  if (value.is_binary()) {
+    out.append(value.get_binary().begin(), value.get_binary().end());
+    return;
+  }
   if (!value.is_structured()) {
     out += value.dump(-1, ' ', false, Json::error_handler_t::replace);
     return;

@@ -12,7 +12,7 @@ std::string number_text(double x);
 
 /// `value` with two spaces of indentation. An array or object that holds no other container is written on
 /// one line, so that a pose is a line and a diff of two plans shows poses. Ends without a line break.
-/// Bytes that are not UTF-8 are replaced by U+FFFD.
+/// A binary value is JSON text, which is written as it is. Bytes that are not UTF-8 are replaced by U+FFFD.
 std::string json_text(const nlohmann::ordered_json& value);
 
 }  // namespace dismantle

@@ -76,6 +76,48 @@ void fields(auto& v, Is<PlanForced> auto& f) {
   v("lower_bound", f.lower_bound, if_set);
 }
 
+/// A JSON object of a third party, as text.
+struct ObjectText {
+  std::string operator()(const Place& place) const {
+    place.expect(place.json().is_binary(), "an object");
+    const auto& bytes = place.json().get_binary();
+    return {bytes.begin(), bytes.end()};
+  }
+  static Json write(const std::string& text) { return Json::binary({text.begin(), text.end()}); }
+};
+
+void fields(auto& v, Is<StepNote> auto& n) {
+  v("kind", n.kind, required, name);
+  v("text", n.text);
+  v("data", n.data, if_set, ObjectText{});
+}
+
+void fields(auto& v, Is<PlanVerdict> auto& c) {
+  v("type", c.type, required, name);
+  v("weight", c.weight, required, from_zero);
+  v("cost", c.cost, required, from_zero);
+  v("allowed", c.allowed);
+  v("reason", c.reason, if_set);
+  v("failed", c.failed, if_set);
+  v("notes", c.notes, if_set);
+  v("certificate", c.certificate, if_set);
+}
+
+void fields(auto& v, Is<PlanObjectiveItem> auto& item) {
+  v("type", item.type, required, name);
+  v("weight", item.weight, required, from_zero);
+  v("require", item.require, if_set);
+  v("parameters", item.parameters, if_set);
+  v("cost", item.cost, required, from_zero);
+  v("plan", item.plan, if_set);
+}
+
+void fields(auto& v, Is<PlanObjective> auto& o) {
+  v("up", o.up, required, unit_vector);
+  v("cost", o.cost, required, from_zero);
+  v("checks", o.checks);
+}
+
 enum class StepKind { disassembly, assembly };
 
 void step_fields(auto& v, Is<PlanStep> auto& s, StepKind kind) {
@@ -94,6 +136,7 @@ void step_fields(auto& v, Is<PlanStep> auto& s, StepKind kind) {
   v("after", s.after, assembly ? unknown : optional);
   v("layer", s.layer, assembly ? unknown : optional);
   v("overlaps", s.overlaps, assembly ? unknown : if_set);
+  v("checks", s.checks, assembly ? unknown : if_set);
   v("forced", s.forced, if_set);
 }
 
@@ -194,6 +237,7 @@ void fields(auto& v, Is<Plan> auto& p) {
   v("status", p.status, required, enumerator(PlanStatus::partial, "\"complete\", \"forced\" or \"partial\""));
   v("seed", p.seed);
   v("verified_max_penetration", p.verified_max_penetration, required, positive);
+  v("objective", p.objective, if_set);
   v.list("disassembly", p.disassembly, [](auto& step, auto& s) { step_fields(step, s, StepKind::disassembly); });
   v.list("assembly_steps", p.assembly_steps, [](auto& step, auto& s) { step_fields(step, s, StepKind::assembly); });
   v("assembly_status", p.assembly_status, optional,
