@@ -77,6 +77,7 @@ struct ObjectiveVerdict {
 /// The checks that a plan is judged by. Empty: every order that is free of collisions is as good as another.
 struct DISMANTLE_API Objective {
   std::vector<ObjectiveItem> items{};
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit; how the assembly lies
   bool empty() const { return items.empty(); }
   ObjectiveVerdict judge(const StepQuestion& question, const RunContext& context) const;
 };

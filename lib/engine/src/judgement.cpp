@@ -112,18 +112,19 @@ std::deque<Operation> operations_of(const Disassembly& disassembly, const Assemb
     std::vector<PartId> present;
     for (PartId id = 0; id < disassembly.parts(); ++id)
       if (disassembly.group(id, k) == disassembly.left_group(k) && !contains(step.parts, id)) present.push_back(id);
-    operations.emplace_back(assembly, disassembly.placed(step.parts, k), disassembly.placed(present, k), *step.path, up);
+    operations.emplace_back(assembly, disassembly.placed(step.parts, k), disassembly.placed(present, k), *step.path,
+                            up);
   }
   return operations;
 }
 
 void judge(Plan& plan, const Disassembly& disassembly, const Assembly& assembly, const Objective& objective,
-           const Eigen::Vector3d& up, const RunContext& context) {
+           const RunContext& context) {
   if (objective.empty()) return;
-  const std::deque<Operation> operations = operations_of(disassembly, assembly, up);
+  const std::deque<Operation> operations = operations_of(disassembly, assembly, objective.up);
   const Questions questions(operations);
   PlanObjective& stated = plan.objective;
-  stated.up = up;
+  stated.up = objective.up;
   for (const ObjectiveItem& item : objective.items) {
     PlanObjectiveItem& check = stated.checks.emplace_back();
     check.type = item.id;

@@ -10,7 +10,7 @@ class Blocking final : public SequencePlanner {
  public:
   explicit Blocking(const BlockingParams& params) : params_(params) {}
   SequencePlannerTraits traits() const noexcept override {
-    return {.keeps_constraints = true, .any_start = true};
+    return {.keeps_constraints = true, .any_start = true, .follows_objective = true};
   }
   SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override;

@@ -19,6 +19,7 @@ DisassemblyState::DisassemblyState(const SequenceQuery& query, const Inseparable
       constraints_(query.constraints),
       observer_(observer),
       context_(context),
+      preference_(query),
       of_part_(assembly_.parts.size(), none),
       inseparable_(assembly_.parts.size()),
       poses_(assembly_.parts.size()),
@@ -116,6 +117,21 @@ Attempt DisassemblyState::attempt_for(const GroupState& group, const Subassembli
   return attempt;
 }
 
+CandidateRemoval DisassemblyState::candidate(const GroupState& group, const Subassemblies& ids,
+                                             const Eigen::Vector3d& direction) const {
+  Attempt attempt = attempt_for(group, ids);
+  return {std::move(attempt.moving), std::move(attempt.fixed), direction};
+}
+
+Subassemblies DisassemblyState::preferred(const GroupState& group, const Subassemblies& ids) const {
+  if (!preference_.active()) return ids;
+  std::vector<CandidateRemoval> candidates;
+  for (const SubassemblyId id : ids) candidates.push_back(candidate(group, {id}, Eigen::Vector3d::Zero()));
+  Subassemblies out;
+  for (const std::size_t k : preference_.sorted(candidates, context_)) out.push_back(ids[k]);
+  return out;
+}
+
 void DisassemblyState::commit(GroupState& group, const Subassemblies& ids, const Attempt& attempt,
                               const AttemptResult& answer, GroupChange::Kind kind) {
   Removal removal;
@@ -125,6 +141,7 @@ void DisassemblyState::commit(GroupState& group, const Subassemblies& ids, const
   }
   removal.attempt = &answer;
   removals_.push_back(removal);
+  if (preference_.active()) preference_.removed({attempt.moving, attempt.fixed}, answer.path(), context_);
   for (GroupListener* listener : listeners_) listener->on_group_changed(group, {kind, ids});
   if (attempt.goal.placement) {
     observer_.removed(removals_.back(), parts_left_ - separations_);

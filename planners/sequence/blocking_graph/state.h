@@ -14,6 +14,7 @@
 #include "dismantle/part_set.h"
 #include "dismantle/sequence_planner.h"
 #include "one_by_one/one_by_one.h"
+#include "preference/preference.h"
 
 namespace dismantle::blocking {
 
@@ -95,6 +96,12 @@ class DisassemblyState {
   const Assembly& assembly() const { return assembly_; }
   const Constraints& constraints() const { return constraints_; }
   RunContext& context() const { return context_; }
+  /// Knows all removals that were committed.
+  const Preference& preference() const { return preference_; }
+  /// The same members of the group, those first that the objective likes best to leave next, whatever the direction.
+  Subassemblies preferred(const GroupState& group, const Subassemblies& ids) const;
+  /// `ids` leave the others of the group along `direction` (zero: not known).
+  CandidateRemoval candidate(const GroupState& group, const Subassemblies& ids, const Eigen::Vector3d& direction) const;
 
   // Subassemblies.
   std::size_t subassemblies() const { return parts_.size(); }
@@ -155,6 +162,7 @@ class DisassemblyState {
   const Constraints& constraints_;
   SequenceObserver& observer_;
   RunContext& context_;
+  Preference preference_;
   std::vector<std::vector<PartId>> parts_;  // by subassembly
   Subassemblies of_part_;                   // by part
   std::vector<bool> inseparable_;           // by part

@@ -319,6 +319,18 @@ std::optional<std::size_t> StraightMotion::free_direction(const GroupState& grou
   return std::nullopt;
 }
 
+std::vector<std::size_t> StraightMotion::free_directions(const GroupState& group, SubassemblyId unit) {
+  std::vector<std::size_t> found;
+  for (const std::size_t d : directions_of(group, unit)) {
+    for (auto open = open_pairs(group, unit, d); !open.empty(); open = open_pairs(group, unit, d)) {
+      if (state_.stop()) return {};
+      relations_.compute(open);
+    }
+    if (!blocker_[unit].contains(d) && !was_refused({unit}, d)) found.push_back(d);
+  }
+  return found;
+}
+
 double StraightMotion::length_out(const GroupState& group, const Subassemblies& ids, std::size_t direction,
                                   const Eigen::Vector3d& shift) const {
   Attempt attempt = state_.attempt_for(group, ids);

@@ -28,6 +28,8 @@ class StraightMotion final : public GroupListener {
   /// The free direction with the shortest path, among the first few directions that include a free one.
   std::optional<std::size_t> free_direction(const GroupState& group, SubassemblyId id,
                                             std::span<const SubassemblyId> next = {});
+  /// All free directions that were not refused, in the order of their paths' lengths.
+  std::vector<std::size_t> free_directions(const GroupState& group, SubassemblyId id);
   /// All subassemblies that block `id`.
   Subassemblies blockers(const GroupState& group, SubassemblyId id, std::size_t direction);
   /// By member, in the group's order: indices of the members that block it. Empty when the run is to stop.

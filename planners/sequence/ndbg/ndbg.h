@@ -27,7 +27,7 @@ class Ndbg final : public SequencePlanner {
  public:
   explicit Ndbg(const NdbgParams& params) : params_(params) {}
   SequencePlannerTraits traits() const noexcept override {
-    return {.keeps_constraints = true, .any_start = true};
+    return {.keeps_constraints = true, .any_start = true, .follows_objective = true};
   }
   SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override;

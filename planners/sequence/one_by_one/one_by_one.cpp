@@ -51,7 +51,7 @@ Attempt OneByOne::question(PartId part, unsigned max_depth) const {
   return attempt;
 }
 
-Outcome OneByOne::attempt(PartId part, unsigned max_depth, std::span<const PartId> next) {
+const AttemptResult& OneByOne::ask(PartId part, unsigned max_depth, std::span<const PartId> next) {
   context_.progress("sequence", removals_.size(), steps_, assembly_.parts[part].name);
   if (context_.threads > 1) {
     std::vector<Attempt> ahead{question(part, max_depth)};
@@ -60,20 +60,63 @@ Outcome OneByOne::attempt(PartId part, unsigned max_depth, std::span<const PartI
       ahead.push_back(question(id, max_depth));
     oracle_.prefetch(ahead, context_);
   }
-  const AttemptResult& answer = oracle_.attempt(question(part, max_depth), context_);
-  answer_ = &answer;
+  answer_ = &oracle_.attempt(question(part, max_depth), context_);
+  return *answer_;
+}
+
+void OneByOne::remove(PartId part, const AttemptResult& answer) {
+  std::erase(left_, part);
+  last_[part].reset();
+  removals_.push_back({{part}, &answer});
+  observer_.removed(removals_.back(), left_.size());
+  context_.progress("sequence", removals_.size(), steps_, assembly_.parts[part].name);
+}
+
+void OneByOne::note_failure(PartId part, const AttemptResult& answer) {
   const PathResult& result = answer.result;
-  if (is_success(result.outcome())) {
-    std::erase(left_, part);
-    last_[part].reset();
-    removals_.push_back({{part}, &answer});
-    observer_.removed(removals_.back(), left_.size());
-    context_.progress("sequence", removals_.size(), steps_, assembly_.parts[part].name);
-  } else if (!interrupted() || !last_[part]) {  // an interrupted attempt says less than the one before it
+  if (!interrupted() || !last_[part])  // an interrupted attempt says less than the one before it
     last_[part] =
         Unsolved{part, result.outcome(), result.blocked_by, result.best_pose, result.message, answer.certificate};
+}
+
+Outcome OneByOne::attempt(PartId part, unsigned max_depth, std::span<const PartId> next) {
+  const AttemptResult& answer = ask(part, max_depth, next);
+  if (is_success(answer.result.outcome()))
+    remove(part, answer);
+  else
+    note_failure(part, answer);
+  return answer.result.outcome();
+}
+
+std::vector<Outcome> OneByOne::attempt_each(std::span<const PartId> parts, unsigned max_depth, Preference& preference) {
+  std::vector<Outcome> outcomes;
+  std::vector<const AttemptResult*> found;
+  for (std::size_t i = 0; i < parts.size() && !interrupted(); ++i) {
+    const AttemptResult& answer = ask(parts[i], max_depth, parts.subspan(i + 1));
+    outcomes.push_back(answer.result.outcome());
+    if (is_success(outcomes.back()))
+      found.push_back(&answer);
+    else
+      note_failure(parts[i], answer);
   }
-  return result.outcome();
+  for (bool first = true; !found.empty() && !done() && !interrupted(); first = false) {
+    std::vector<CandidateRemoval> candidates;
+    for (const AttemptResult* answer : found) {
+      Attempt now = question(answer->attempt.moving.front().part, max_depth);
+      candidates.push_back({std::move(now.moving), std::move(now.fixed), {}, &answer->path()});
+    }
+    const std::size_t best = preference.sorted(candidates, context_).front();
+    const PartId part = candidates[best].moving.front().part;
+    // The first answer is about all parts that are left; the others were given before parts left.
+    const AttemptResult& answer =
+        first ? *found[best] : oracle_.propose(question(part, max_depth), found[best]->path(), context_);
+    if (is_success(answer.result.outcome())) {
+      preference.removed(candidates[best], answer.path(), context_);
+      remove(part, answer);
+    }
+    found.erase(found.begin() + static_cast<std::ptrdiff_t>(best));
+  }
+  return outcomes;
 }
 
 // The outcome of the run. A crash comes first, then an outcome that all parts share, then outcomes that more effort

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dismantle/sequence_planner.h"
+#include "preference/preference.h"
 
 namespace dismantle {
 
@@ -32,6 +33,10 @@ class OneByOne {
   /// Asks whether `part` can leave while all others left stay fixed, to `max_depth` (0 = no limit). If it can, it is
   /// removed immediately. `next`: parts to ask for if it cannot; computed speculatively.
   Outcome attempt(PartId part, unsigned max_depth, std::span<const PartId> next = {});
+  /// Asks for each of these parts, as attempt() does, and then removes those that can leave, first the one that
+  /// `preference` likes best. Paths stay valid when other parts have left: they are only verified again. Returns the
+  /// outcomes of the questions.
+  std::vector<Outcome> attempt_each(std::span<const PartId> parts, unsigned max_depth, Preference& preference);
   /// The answer to the last attempt; lives as long as the oracle. Null before the first attempt.
   const AttemptResult* answer() const { return answer_; }
   /// The result so far.
@@ -39,6 +44,9 @@ class OneByOne {
 
  private:
   Attempt question(PartId part, unsigned max_depth) const;
+  const AttemptResult& ask(PartId part, unsigned max_depth, std::span<const PartId> next);
+  void remove(PartId part, const AttemptResult& answer);
+  void note_failure(PartId part, const AttemptResult& answer);
   Outcome outcome() const;
 
   const Assembly& assembly_;

@@ -26,13 +26,20 @@ void ProgressiveParams::describe(Schema<ProgressiveParams>& schema) {
 
 SequenceResult Progressive::plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                                  RunContext& context) {
+  Preference preference(query);
   return each_group(query, [&](const std::vector<PlacedPart>& group) {
     OneByOne sequence(query.assembly, ordered_group(query.assembly, group, params_.order), oracle, observer, context);
     for (unsigned depth = 1; !sequence.done(); ++depth) {
       bool removed_any = false;
       bool deeper_may_help = false;
       const std::vector<PartId> round = sequence.left();
-      for (std::size_t i = 0; i < round.size() && !sequence.done(); ++i) {
+      const bool choose = preference.active() && round.size() > 2;
+      if (choose)
+        for (const Outcome outcome : sequence.attempt_each(round, depth, preference)) {
+          removed_any = removed_any || is_success(outcome);
+          deeper_may_help = deeper_may_help || outcome == Outcome::depth_limit;
+        }
+      for (std::size_t i = 0; !choose && i < round.size() && !sequence.done(); ++i) {
         if (sequence.interrupted()) return sequence.finish();
         if (params_.last_pair_unlimited && params_.max_depth == 0 && sequence.left().size() == 2) {
           for (const PartId part : std::vector<PartId>(sequence.left()))

@@ -18,7 +18,7 @@ struct ProgressiveParams {
 class Progressive final : public SequencePlanner {
  public:
   explicit Progressive(const ProgressiveParams& params) : params_(params) {}
-  SequencePlannerTraits traits() const noexcept override { return {.any_start = true}; }
+  SequencePlannerTraits traits() const noexcept override { return {.any_start = true, .follows_objective = true}; }
   SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override;
 

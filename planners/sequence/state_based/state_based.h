@@ -31,7 +31,7 @@ class StateBased final : public SequencePlanner {
  public:
   explicit StateBased(const StateBasedParams& params) : params_(params) {}
   SequencePlannerTraits traits() const noexcept override {
-    return {.keeps_constraints = true, .any_start = true};
+    return {.keeps_constraints = true, .any_start = true, .follows_objective = true};
   }
   SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override;

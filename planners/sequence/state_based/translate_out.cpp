@@ -3,7 +3,7 @@
 namespace dismantle::state_based {
 
 blocking::Result TranslateOut::apply(GroupState& group) {
-  const Subassemblies ids = group.members;
+  const Subassemblies ids = state_.preferred(group, group.members);
   for (const SubassemblyId id : ids) {
     if (state_.stop()) break;
     if (!state_.is_single(id) || !state_.may_leave(group, {id})) continue;

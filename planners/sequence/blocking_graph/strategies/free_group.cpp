@@ -19,7 +19,8 @@ Result FreeGroup::apply(GroupState& group) {
   return Result::unchanged;
 }
 
-/// Fewest parts first. Moving a group along d is equivalent to moving the rest along -d, so the smaller one moves.
+/// Fewest parts first, then those that the objective likes best. Moving a group along d is equivalent to moving the
+/// rest along -d, so the smaller one moves.
 std::vector<FreeGroup::Candidate> FreeGroup::candidates(const GroupState& group) {
   std::vector<Candidate> found;
   const auto candidate = [&](Subassemblies ids, std::size_t direction) {
@@ -40,6 +41,14 @@ std::vector<FreeGroup::Candidate> FreeGroup::candidates(const GroupState& group)
           break;
         }
     }
+  }
+  if (const Preference& preference = state_.preference(); preference.active()) {
+    std::vector<CandidateRemoval> removals;
+    for (const Candidate& c : found)
+      removals.push_back(state_.candidate(group, c.ids, straight_.directions().all[c.direction]));
+    std::vector<Candidate> sorted;
+    for (const std::size_t k : preference.sorted(removals, state_.context())) sorted.push_back(std::move(found[k]));
+    found = std::move(sorted);
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Candidate& a, const Candidate& b) { return a.parts < b.parts; });

@@ -1,4 +1,4 @@
-/// Removes a subassembly that nothing blocks along some direction.
+/// Removes a subassembly that nothing blocks along some direction; with an objective, the one that it likes best.
 #pragma once
 
 #include "blocking_graph/straight_motion.h"
@@ -14,6 +14,8 @@ class FreePart final : public Strategy {
   Result apply(GroupState& group) override;
 
  private:
+  Result apply_preferred(GroupState& group);
+
   DisassemblyState& state_;
   StraightMotion& straight_;
 };

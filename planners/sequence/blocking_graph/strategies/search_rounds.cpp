@@ -46,6 +46,7 @@ Result SearchRounds::apply(GroupState& group) {
   for (const SubassemblyId s : group.members)
     if (state_.is_single(s) && state_.may_leave(group, {s})) ids.push_back(s);
   if (order_) ids = order_(group, ids);
+  ids = state_.preferred(group, ids);
   // No other part could be tried instead of the last pair, so its searches have no depth limit.
   const bool last_pair = group.is_pair() && settings_.max_depth == 0;
   Round& round = rounds_[group];

@@ -52,6 +52,7 @@ PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registr
   }
   for (const PluginChoice& choice : config.provers)
     out.provers.push_back({choice.type, registry.create<ImmobilityProver>(choice.type, choice.parameters)});
+  out.objective.up = config.layout.up_axis();
   for (const PluginChoice& choice : config.objective) {
     const ObjectiveOptions options = Schema<ObjectiveOptions>().bind(choice.options);
     out.objective.items.push_back({choice.type, registry.create<StepCheck>(choice.type, choice.parameters),

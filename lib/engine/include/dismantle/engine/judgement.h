@@ -24,10 +24,11 @@ DISMANTLE_API std::deque<Operation> operations_of(const Disassembly& disassembly
 /// Sets the objective of the plan of this disassembly, and the checks of its steps. A check that throws, or that says
 /// what cannot be written, has `failed`, which is logged as an error. With an empty objective the plan stays as it is.
 DISMANTLE_API void judge(Plan& plan, const Disassembly& disassembly, const Assembly& assembly,
-                         const Objective& objective, const Eigen::Vector3d& up, const RunContext& context);
+                         const Objective& objective, const RunContext& context);
 
 /// Creates the check of a type. @throws std::exception: it is not available here, and why.
-using CheckOfType = std::function<std::shared_ptr<const StepCheck>(const std::string& type, const ParamSet& parameters)>;
+using CheckOfType =
+    std::function<std::shared_ptr<const StepCheck>(const std::string& type, const ParamSet& parameters)>;
 
 /// How the verdicts of a plan compare to those of the same checks now.
 struct JudgementCheck {
