@@ -141,7 +141,8 @@ void DisassemblyState::commit(GroupState& group, const Subassemblies& ids, const
   }
   removal.attempt = &answer;
   removals_.push_back(removal);
-  if (preference_.active()) preference_.removed({attempt.moving, attempt.fixed}, answer.path(), context_);
+  if (preference_.active())
+    preference_.removed({attempt.moving, attempt.fixed, Eigen::Vector3d::Zero()}, answer.path(), context_);
   for (GroupListener* listener : listeners_) listener->on_group_changed(group, {kind, ids});
   if (attempt.goal.placement) {
     observer_.removed(removals_.back(), parts_left_ - separations_);

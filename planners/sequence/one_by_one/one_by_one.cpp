@@ -103,7 +103,7 @@ std::vector<Outcome> OneByOne::attempt_each(std::span<const PartId> parts, unsig
     std::vector<CandidateRemoval> candidates;
     for (const AttemptResult* answer : found) {
       Attempt now = question(answer->attempt.moving.front().part, max_depth);
-      candidates.push_back({std::move(now.moving), std::move(now.fixed), {}, &answer->path()});
+      candidates.push_back({std::move(now.moving), std::move(now.fixed), Eigen::Vector3d::Zero(), &answer->path()});
     }
     const std::size_t best = preference.sorted(candidates, context_).front();
     const PartId part = candidates[best].moving.front().part;
