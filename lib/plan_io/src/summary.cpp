@@ -7,6 +7,7 @@
 #include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/text_columns.h"
+#include "dismantle/plan_io/verdicts.h"
 
 namespace dismantle {
 namespace {
@@ -46,6 +47,7 @@ std::string summary_text(const Plan& plan) {
   if (plan.disassembly.size() > forced)
     out += fmt::format("every {}step is verified: penetration <= {} of {} allowed\n", forced > 0 ? "other " : "",
                        length_text(plan, worst / scale), length_text(plan, plan.verified_max_penetration / scale));
+  if (!plan.objective.empty()) out += objective_text(plan) + "\n";
   if (plan.assembly_status == AssemblyStatus::complete)
     out += fmt::format("assembly: {} from the layout, verified the same way\n",
                        text::counted(plan.assembly_steps.size(), "step"));

@@ -10,6 +10,7 @@
 #include "dismantle/plan_io/text_columns.h"
 #include "export/dot_text.h"
 #include "json/json_text.h"
+#include "json/verdicts_json.h"
 
 namespace dismantle {
 namespace {
@@ -79,6 +80,7 @@ std::string and_or_json(const Plan& plan) {
                     {"to", arc.to},
                     {"moves", moves},
                     {"max_penetration", step.max_penetration}});
+    if (!step.checks.empty()) arcs.back()["checks"] = verdicts_json(step.checks);
   }
   out["nodes"] = std::move(nodes);
   out["arcs"] = std::move(arcs);

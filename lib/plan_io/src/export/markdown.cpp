@@ -6,6 +6,7 @@
 #include "dismantle/plan_io/exports.h"
 #include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/text_columns.h"
+#include "dismantle/plan_io/verdicts.h"
 #include "export/dot_text.h"
 
 namespace dismantle {
@@ -27,6 +28,17 @@ std::string steps_list(const std::vector<unsigned>& steps) {
   return out.empty() ? "-" : out;
 }
 
+/// Costs, refusals and notes of the checks, notes with their data.
+std::string judged_cell(const std::vector<PlanVerdict>& checks) {
+  std::vector<std::string> lines = cost_lines(checks);
+  for (const PlanVerdict& v : checks)
+    for (const StepNote& note : v.notes)
+      lines.push_back(fmt::format("{} ({}){}{}", note.text, note.kind, note.data.empty() ? "" : ": ", note.data));
+  std::string out;
+  for (const std::string& line : lines) out += (out.empty() ? "" : "<br>") + markdown_text(line);
+  return out.empty() ? "-" : out;
+}
+
 }  // namespace
 
 std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
@@ -41,21 +53,24 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
                   plan.status == PlanStatus::complete ? "complete: all parts come apart"
                   : plan.status == PlanStatus::forced ? "forced: all parts come apart, some steps cut into other parts"
                                                       : "partial: not all parts come apart");
+  const bool judged = !plan.objective.empty();
+  if (judged) out += markdown_text(objective_text(plan)) + ".\n\n";
   if (!plan.disassembly.empty()) {
-    out +=
-        "| step | parts | motion | waits for | touches | cuts in at most |\n"
-        "|---:|---|---|---|---|---:|\n";
+    out += fmt::format(
+        "| step | parts | motion | waits for | touches | cuts in at most |{}\n|---:|---|---|---|---|---:|{}\n",
+        judged ? " as an assembly operation |" : "", judged ? "---|" : "");
     for (const PlanStep& step : plan.disassembly) {
       std::string motion = "-";
       if (!step.moves.empty())
         motion =
             motion_words(summarize_motion(step.moves.front().poses, middle, leg_tolerance(size)), unit, frame.y_up);
       const std::string what = step.separates.empty() ? " (shifted, stays)" : "";
-      out += fmt::format("| {} | {}{} | {} | {} | {} | {} |\n", step.step, markdown_text(text::names_of(step)), what,
+      out += fmt::format("| {} | {}{} | {} | {} | {} | {} |{}\n", step.step, markdown_text(text::names_of(step)), what,
                          markdown_text(motion), step.layer > 0 ? steps_list(step.after) : "not recorded",
                          step.contacts.empty() ? "-" : markdown_text(text::joined(step.contacts)),
                          step.forced ? "**forced: " + fmt::format("{:.2g}", step.forced->depth * a.scale) + "**"
-                                     : fmt::format("{:.2g}", step.max_penetration));
+                                     : fmt::format("{:.2g}", step.max_penetration),
+                         judged ? " " + judged_cell(step.checks) + " |" : "");
     }
     out += fmt::format(
         "\nMotions are those of the first part named, at the assembly's middle. Depths are in assembly units, of which "

@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "dismantle/plan_io/exports.h"
+#include "dismantle/plan_io/verdicts.h"
 #include "export/dot_text.h"
 #include "json/json_text.h"
+#include "json/verdicts_json.h"
 #include "steps/timeline.h"
 
 namespace dismantle {
@@ -50,7 +52,9 @@ void append_rows(std::string& out, const char* animation, const std::vector<Plan
       }
 }
 
-nlohmann::ordered_json poses_of(const std::vector<PlanStep>& all, const Assembly& assembly) {
+/// `checks_of`: what the objective says of a step.
+template <class ChecksOf>
+nlohmann::ordered_json poses_of(const std::vector<PlanStep>& all, const Assembly& assembly, ChecksOf checks_of) {
   const Timeline line = timeline(all, assembly);
   const auto steps = moving_steps(all);
   auto out = nlohmann::ordered_json::array();
@@ -63,6 +67,7 @@ nlohmann::ordered_json poses_of(const std::vector<PlanStep>& all, const Assembly
       moves.push_back({{"part", move.part}, {"poses", std::move(poses)}});
     }
     out.push_back({{"step", steps[s]->step}, {"times", std::move(times)}, {"moves", std::move(moves)}});
+    if (const auto& checks = checks_of(*steps[s]); !checks.empty()) out.back()["checks"] = verdicts_json(checks);
   }
   return out;
 }
@@ -79,8 +84,11 @@ std::string poses_csv(const Plan& plan, const Assembly& assembly) {
 std::string poses_json(const Plan& plan, const Assembly& assembly, const InputFrame& frame) {
   nlohmann::ordered_json out = {{"format", "dismantle.poses"}, {"version", 1}, {"source", plan.assembly.source}};
   out["unit"] = frame.unit_known ? nlohmann::ordered_json(frame.unit) : nlohmann::ordered_json(nullptr);
-  out["disassembly"] = poses_of(plan.disassembly, assembly);
-  out["assembly"] = poses_of(plan.assembly_steps, assembly);
+  out["disassembly"] = poses_of(
+      plan.disassembly, assembly, [](const PlanStep& s) -> const auto& { return s.checks; });
+  out["assembly"] = poses_of(
+      plan.assembly_steps,
+      assembly, [&](const PlanStep& s) -> const auto& { return checks_of_assembly_step(plan, s); });
   return json_text(out) + "\n";
 }
 

@@ -7,6 +7,7 @@
 #include "dismantle/plan_io/plan_file.h"
 #include "json/json_text.h"
 #include "json/plan_fields.h"
+#include "json/verdicts_json.h"
 
 namespace dismantle {
 namespace plan_json {
@@ -144,6 +145,12 @@ std::string_view to_string(PlanStatus status) {
 
 std::string_view to_string(AssemblyStatus status) {
   return std::array<std::string_view, 3>{"complete", "partial", "reversed"}.at(static_cast<std::size_t>(status));
+}
+
+nlohmann::ordered_json verdicts_json(const std::vector<PlanVerdict>& checks) {
+  auto out = nlohmann::ordered_json::array();
+  for (const PlanVerdict& verdict : checks) out.push_back(plan_json::Writer::json(verdict));
+  return out;
 }
 
 std::string to_json(const Plan& plan) { return json_text(plan_json::Writer::json(plan)) + "\n"; }
