@@ -1,4 +1,4 @@
-"""Planners that are written in Python."""
+"""Planners and step checks that are written in Python."""
 import inspect
 import os
 from dataclasses import dataclass, field
@@ -59,6 +59,31 @@ class SequencePlanner:
         raise NotImplementedError(f"{type(self).__name__} has no plan(assembly, oracle, context)")
 
 
+@dataclass(frozen=True)
+class StepVerdict:
+    """The answer of a step check. cost: from 0 on, in the unit that the check documents. reason: one phrase, when there is a cost
+    or a refusal. notes: StepNote objects for the reader of the plan."""
+
+    cost: float = 0.0
+    allowed: bool = True
+    reason: str = ""
+    notes: tuple = ()
+
+
+class StepCheck:
+    """Base of step checks: is a step an assembly operation that somebody can carry out? The decorator @step_check registers a class.
+
+    The same StepQuestion has to have the same verdict at any time. A class with a method judge_plan(questions) also judges the plan
+    as a whole: it is given all operations in the order of assembly, and returns a StepVerdict or None.
+    """
+
+    remembers = ()  # what is read of question.previous: 'direction', 'orientation' (up), 'shape' (moving); nothing else of it
+
+    def judge(self, question):
+        """Answers a StepQuestion with a StepVerdict, or None: allowed, without cost. What it raises is told in the plan."""
+        raise NotImplementedError(f"{type(self).__name__} has no judge(question)")
+
+
 @dataclass
 class _Declared:
     id: str
@@ -79,7 +104,7 @@ def _first_line(cls):
 
 def _decorator(base, register, id, parameters, doc, source, version, needs, simultaneous_motion):
     if not isinstance(id, str):
-        raise TypeError("the decorator takes the id of the planner: @dismantle.path_planner('acme.lines')")
+        raise TypeError("the decorator takes the id of the type: @dismantle.path_planner('acme.lines')")
 
     def decorate(cls):
         if not (isinstance(cls, type) and issubclass(cls, base)):
@@ -120,3 +145,8 @@ def path_planner(id, parameters=(), *, needs=(), doc="", source="own", version="
 def sequence_planner(id, parameters=(), *, doc="", source="own", version="0"):
     """Class decorator that registers a SequencePlanner under `id`; see path_planner."""
     return _decorator(SequencePlanner, _core._register_sequence_planner, id, parameters, doc, source, version, (), False)
+
+
+def step_check(id, parameters=(), *, doc="", source="own", version="0"):
+    """Class decorator that registers a StepCheck under `id`; see path_planner. Configurations name it in `objective`."""
+    return _decorator(StepCheck, _core._register_step_check, id, parameters, doc, source, version, (), False)

@@ -63,12 +63,12 @@ def plugins(kind=None):
     """All plugin types, those that are written in Python included: list of dicts with id, kind, summary, source, needs,
     provides, parameters (list of dicts: name, type, unit, default, range, doc) and plugin (file, version, licence).
 
-    kind: 'simulator', 'path_planner', 'sequence_planner', 'transfer_planner', 'immobility_prover' or 'importer'; None: all.
+    kind: 'path_planner', 'step_check', ... (docs/plugin-kinds.md); None: all.
     """
     types = [json.loads(text) for text in _core._descriptions("")]
-    kinds = {"simulator", "path_planner", "sequence_planner", "transfer_planner", "immobility_prover", "importer"}
+    kinds = _core._kinds()
     if kind is not None and kind not in kinds:
-        raise ValueError(f"unknown kind '{kind}'; there are {', '.join(sorted(kinds))}")
+        raise ValueError(f"unknown kind '{kind}'; there are {', '.join(kinds)}")
     return [t for t in types if kind is None or t["kind"] == kind]
 
 

@@ -24,6 +24,7 @@ void bind_errors(py::module_& m);
 void bind_assembly(py::module_& m);
 void bind_step(py::module_& m);
 void bind_unsolved(py::module_& m);
+void bind_verdicts(py::module_& m);
 void bind_plan(py::module_& m);
 void bind_run(py::module_& m);
 void bind_plugins(py::module_& m);
@@ -31,6 +32,7 @@ void bind_simulator(py::module_& m);
 void bind_world(py::module_& m);
 void bind_path_planner(py::module_& m);
 void bind_sequence_planner(py::module_& m);
+void bind_step_check(py::module_& m);
 void bind_results(py::module_& m);
 
 /// The assembly that Python holds.

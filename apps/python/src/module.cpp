@@ -16,5 +16,6 @@ PYBIND11_MODULE(_core, m) {
   bind_simulator(m);
   bind_path_planner(m);
   bind_sequence_planner(m);
+  bind_step_check(m);
   bind_results(m);
 }

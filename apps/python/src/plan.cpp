@@ -56,6 +56,7 @@ void bind_plan(py::module_& m) {
   bind_overlap(m);
   bind_step(m);
   bind_unsolved(m);
+  bind_verdicts(m);
   py::class_<HeldPlan>(m, "Plan", "An order in which the parts come out, with a path for each (docs/plan-format.md).")
       .def_static(
           "read", [](const std::filesystem::path& file) { return read(file); }, py::arg("path"),
@@ -80,7 +81,8 @@ void bind_plan(py::module_& m) {
             write_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
           },
           py::arg("path"), py::arg("assembly"),
-          "Writes the animation as glTF binary, a node for each part, for viewers and Blender. assembly: the one that the "
+          "Writes the animation as glTF binary, a node for each part, for viewers and Blender. assembly: the one that "
+          "the "
           "plan is for.")
       .def(
           "explain",
@@ -127,6 +129,9 @@ void bind_plan(py::module_& m) {
           "certificates", [](const HeldPlan& self) { return self.plan.certificates; },
           "List of Certificate: proofs that parts cannot be separated.")
       .def_property_readonly(
+          "objective", [](const HeldPlan& self) { return self.plan.objective; },
+          "Objective: what the steps were judged by, and the sum of all costs.")
+      .def_property_readonly(
           "removed",
           [](const HeldPlan& self) {
             std::vector<std::string> names;
@@ -168,7 +173,8 @@ void bind_plan(py::module_& m) {
           "read.")
       .def(py::pickle([](const HeldPlan& self) { return py::make_tuple(to_json(self.plan), self.info); },
                       [](const py::tuple& state) {
-                        return HeldPlan{plan_from_json(py::cast<std::string>(state[0]), "<pickle>"), py::cast<std::map<std::string, py::object>>(state[1])};
+                        return HeldPlan{plan_from_json(py::cast<std::string>(state[0]), "<pickle>"),
+                                        py::cast<std::map<std::string, py::object>>(state[1])};
                       }))
       .def("__repr__", [](const HeldPlan& self) {
         return fmt::format("<Plan of '{}': {}, {} steps, {} parts>", self.plan.assembly.source,

@@ -83,6 +83,9 @@ void bind_step(py::module_& m) {
           "List of StepOverlap: pairs that this step moves past each other, and that overlap when assembled by more "
           "than "
           "`verify.named_overlap`.")
+      .def_readonly("checks", &PlanStep::checks,
+                    "List of Verdict: what the objective says of this step as an assembly operation. Steps of the "
+                    "disassembly only.")
       .def_readonly("transfer", &PlanStep::transfer,
                     "Steps of assembly: index of the pose at which the motion from the layout ends and the disassembly "
                     "backwards begins; 0: there is no such motion.")
@@ -98,6 +101,40 @@ void bind_step(py::module_& m) {
         return fmt::format("<Step {}: {}, {} poses{}>", s.step, names,
                            s.moves.empty() ? 0 : s.moves.front().poses.size(), s.forced ? ", forced" : "");
       });
+}
+
+void bind_verdicts(py::module_& m) {
+  py::class_<StepNote>(m, "StepNote", "What a step check says for the reader of a plan.")
+      .def(py::init<std::string, std::string, std::string>(), py::arg("kind"), py::arg("text"), py::arg("data") = "",
+           "kind: for programs. text: one sentence for people. data: a JSON object as text, kept byte for byte; empty: "
+           "none.")
+      .def_readonly("kind", &StepNote::kind, "For programs.")
+      .def_readonly("text", &StepNote::text, "One sentence for people.")
+      .def_readonly("data", &StepNote::data, "A JSON object as text; empty: none.")
+      .def("__repr__", [](const StepNote& n) { return fmt::format("<StepNote {}: {}>", n.kind, n.text); });
+  py::class_<PlanVerdict>(m, "Verdict", "What a step check says about a step, or about a plan as a whole.")
+      .def_readonly("type", &PlanVerdict::type, "Id of the check.")
+      .def_readonly("weight", &PlanVerdict::weight, "Factor on the cost.")
+      .def_readonly("cost", &PlanVerdict::cost, "Without the weight.")
+      .def_readonly("allowed", &PlanVerdict::allowed, "False: the check says that nobody can carry out this step.")
+      .def_readonly("reason", &PlanVerdict::reason, "Why there is a cost or a refusal.")
+      .def_readonly("failed", &PlanVerdict::failed, "Not empty: the check could not judge, and why.")
+      .def_readonly("notes", &PlanVerdict::notes, "List of StepNote.")
+      .def_readonly("certificate", &PlanVerdict::certificate, "Certificate that proves it, or None.")
+      .def("__repr__", [](const PlanVerdict& v) {
+        return fmt::format("<Verdict of {}: cost {}{}>", v.type, v.cost, v.allowed ? "" : ", not allowed");
+      });
+  py::class_<PlanObjectiveItem>(m, "ObjectiveItem", "A check of the objective of a plan.")
+      .def_readonly("type", &PlanObjectiveItem::type, "Id of the check.")
+      .def_readonly("weight", &PlanObjectiveItem::weight, "Factor on its cost.")
+      .def_readonly("require", &PlanObjectiveItem::require, "Steps that it does not allow were to be refused.")
+      .def_readonly("cost", &PlanObjectiveItem::cost, "Sum over the plan, without the weight.")
+      .def_readonly("plan", &PlanObjectiveItem::plan, "Verdict on the plan as a whole, or None.");
+  py::class_<PlanObjective>(m, "Objective", "What the steps of a plan were judged by.")
+      .def_readonly("cost", &PlanObjective::cost, "Weighted sum over all steps and checks.")
+      .def_readonly("checks", &PlanObjective::checks, "List of ObjectiveItem; empty: the plan was not judged.")
+      .def_property_readonly(
+          "up", [](const PlanObjective& o) { return array_of(o.up); }, "(3,): how the assembly lies; unit.");
 }
 
 void bind_unsolved(py::module_& m) {

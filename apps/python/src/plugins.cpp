@@ -128,6 +128,11 @@ void bind_plugins(py::module_& m) {
   m.def("load_plugin", &load_plugin, py::arg("path"),
         "Loads a plugin file (a shared library). Returns the ids of its types. Raises PluginError saying why it is "
         "refused.");
+  m.def("_kinds", [] {
+    std::vector<std::string> kinds;
+    for (const PluginKind kind : kPluginKinds) kinds.emplace_back(to_string(kind));
+    return kinds;
+  });
   m.def("_descriptions", &descriptions, py::call_guard<py::gil_scoped_release>());
   m.def("plugin_problems", &problems, py::call_guard<py::gil_scoped_release>(),
         "Plugin files that were found and not used: list of (file, what is wrong).");

@@ -215,3 +215,78 @@ def test_groups_that_leave_together_have_to_be_taken_apart(machine):
     plan = dismantle.run(machine, config={"sequence_planner": {"type": "test.groups"}, "path_planner": {"type": "test.lines"}})
     assert sorted(plan.steps[0].parts) == ["washer_1_3", "washer_1_4"] and len(plan.steps) == len(machine) - 1
     assert plan.complete and dismantle.verify(plan, machine).complete
+
+
+@dismantle.step_check("test.alphabet", [dismantle.Parameter("reverse", False, "Descending.")])
+class Alphabet(dismantle.StepCheck):
+    """Parts are put in by their names."""
+
+    remembers = ("shape",)
+
+    def __init__(self, reverse):
+        self.reverse = reverse
+
+    def judge(self, question):
+        assert question.path.shape[1] == len(question.moving) if question.path is not None else True
+        assert set(question.poses) == set(question.moving) | set(question.present)
+        if question.previous is None:
+            return None
+        before, now = question.previous.moving[0], question.moving[0]
+        if (before > now) == self.reverse:
+            return None
+        return dismantle.StepVerdict(1.5, reason=f"{now} after {before}", notes=[dismantle.StepNote("order", "Turn.", '{"from": 1.0e0}')])
+
+
+@dismantle.step_check("test.broken")
+class Broken(dismantle.StepCheck):
+    def judge(self, question):
+        raise KeyError("nothing here")
+
+
+@dismantle.step_check("test.whole")
+class Whole(dismantle.StepCheck):
+    def judge(self, question):
+        return dismantle.StepVerdict(allowed=False, reason="never")
+
+    def judge_plan(self, questions):
+        return dismantle.StepVerdict(cost=len(questions), reason="its steps")
+
+
+def test_a_step_check_in_python(tmp_path):
+    blocks = dismantle.Assembly.from_meshes(loose_blocks())
+    for reverse in (False, True):
+        config = {**LINES, "objective": [{"type": "test.alphabet", "weight": 2, "reverse": reverse}]}
+        plan = dismantle.run(blocks, config=config)
+        names = [step.parts[0] for step in reversed(plan.steps)]
+        assert plan.complete and len(names) == 3
+        wrong = sum((a > b) != reverse for a, b in zip(names, names[1:]))
+        assert plan.objective.checks[0].cost == 1.5 * wrong and plan.objective.cost == 3 * wrong
+        for step in plan.steps:
+            for verdict in step.checks:
+                assert (verdict.type, verdict.weight, verdict.allowed) == ("test.alphabet", 2, True)
+                assert [n.data for n in verdict.notes] == (['{"from": 1.0e0}'] if verdict.cost else [])
+        read = dismantle.Plan.from_json(plan.to_json())
+        assert read.to_json() == plan.to_json()
+
+
+def test_what_a_check_raises_is_told_in_the_plan(caplog):
+    blocks = dismantle.Assembly.from_meshes(loose_blocks())
+    plan = dismantle.run(blocks, config={**LINES, "sequence_planner": {"type": "queue"}, "objective": ["test.broken"]})
+    assert plan.complete and all("nothing here" in step.checks[0].failed for step in plan.steps)
+    assert any("test.broken" in record.message for record in caplog.records)
+
+
+def test_a_check_may_judge_the_plan_as_a_whole():
+    blocks = dismantle.Assembly.from_meshes(loose_blocks())
+    plan = dismantle.run(blocks, config={**LINES, "objective": ["test.whole"]})
+    assert [step.checks[0].allowed for step in plan.steps] == [False] * 3
+    assert plan.objective.checks[0].plan.cost == 3 == plan.objective.cost
+
+
+def test_a_check_says_what_it_remembers():
+    @dismantle.step_check("test.remembers_all")
+    class RemembersAll(dismantle.StepCheck):
+        remembers = ("everything",)
+
+    with pytest.raises(dismantle.PluginError, match="'direction', 'orientation', 'shape'"):
+        dismantle.run(dismantle.Assembly.from_meshes(loose_blocks()), config={**LINES, "objective": ["test.remembers_all"]})

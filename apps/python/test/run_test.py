@@ -120,7 +120,7 @@ def test_the_log_goes_to_logging(box, caplog):
 
 def test_plugins_are_listed_with_their_parameters():
     kinds = {p["kind"] for p in dismantle.plugins()}
-    assert {"simulator", "path_planner", "sequence_planner", "transfer_planner", "importer"} <= kinds
+    assert {"simulator", "path_planner", "sequence_planner", "transfer_planner", "importer", "step_check"} <= kinds
     mine = dismantle.describe("test.lines")
     assert mine["kind"] == "path_planner" and mine["summary"] == "Straight lines."
     assert [p["name"] for p in mine["parameters"]] == ["directions", "step", "order"]

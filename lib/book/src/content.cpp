@@ -12,6 +12,7 @@
 #include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/text_columns.h"
+#include "dismantle/plan_io/verdicts.h"
 
 namespace dismantle {
 namespace {
@@ -32,7 +33,7 @@ std::string common_name(const std::vector<std::string>& names) {
 class ContentWriter {
  public:
   ContentWriter(const Plan& plan, const Assembly& assembly, const BookOptions& options,
-                const std::vector<ShapePlacement>& shapes)
+                const std::vector<geometry::ShapePlacement>& shapes)
       : plan_(plan),
         assembly_(assembly),
         options_(options),
@@ -55,7 +56,7 @@ class ContentWriter {
   }
 
  private:
-  void find_items(const std::vector<ShapePlacement>& shapes) {
+  void find_items(const std::vector<geometry::ShapePlacement>& shapes) {
     std::map<std::size_t, std::size_t> item_of_shape;
     for (std::size_t i = 0; i < assembly_.parts.size(); ++i) {
       const auto [it, fresh] = item_of_shape.try_emplace(shapes[i].original, content_.items.size());
@@ -97,6 +98,7 @@ class ContentWriter {
     content_.facts.emplace_back(
         "checked", fmt::format("every motion, with parts that overlap by at most {} {} more than when assembled",
                                figure_text(plan_.verified_max_penetration / a.scale), unit_));
+    if (!plan_.objective.empty()) content_.facts.emplace_back("judged", objective_text(plan_));
     content_.facts.emplace_back("made by", plan_.generator_name + " " + plan_.generator_version);
     std::string forced;
     for (const PlanStep& step : plan_.disassembly)
@@ -181,6 +183,9 @@ class ContentWriter {
       if (s.step != step.plan_step) continue;
       if (s.forced) page.warning = fmt::format("Not verified: {}.", forced_text(plan_, *s.forced));
       if (!s.contacts.empty()) page.facts.emplace_back("touches", text::joined(s.contacts));
+      for (const PlanVerdict& v : s.checks)
+        for (const StepNote& note : v.notes) page.facts.emplace_back("note", note.text);
+      for (const std::string& line : cost_lines(s.checks)) page.facts.emplace_back("check", line);
       page.facts.emplace_back("step of the plan",
                               fmt::format("{}{}", s.step, options_.disassembly ? "" : ", backwards"));
     }
@@ -212,7 +217,7 @@ class ContentWriter {
 }  // namespace
 
 BookContent book_content(const Plan& plan, const Assembly& assembly, const BookOptions& options,
-                         const std::vector<ShapePlacement>& shapes) {
+                         const std::vector<geometry::ShapePlacement>& shapes) {
   return ContentWriter(plan, assembly, options, shapes).write();
 }
 

@@ -44,6 +44,6 @@ struct BookContent {
 
 /// @throws InputError as book_html().
 BookContent book_content(const Plan& plan, const Assembly& assembly, const BookOptions& options,
-                         const std::vector<ShapePlacement>& shapes);
+                         const std::vector<geometry::ShapePlacement>& shapes);
 
 }  // namespace dismantle

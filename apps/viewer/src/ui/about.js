@@ -1,5 +1,6 @@
 // Describes the assembly of the plan and what was verified.
 import {counted, number, seconds, share} from '../plan/words.js';
+import {objectiveText} from '../plan/checks.js';
 import {element} from './dom.js';
 
 export function makeAbout(app) {
@@ -17,6 +18,8 @@ export function makeAbout(app) {
   row('putting together', {complete: 'each part is brought from the layout', partial: 'some parts are not brought from the layout',
     reversed: 'the disassembly backwards'}[plan.assembly_status] ?? 'not planned');
   row('checked', `on the original triangles, between poses too: no step cuts in deeper than ${share(worst, plan)} of the size (${number(worst)} of ${number(plan.verified_max_penetration)} units allowed)`);
+  const objective = objectiveText(plan);
+  if (objective) row('objective', objective);
   const box = assembly.bbox;
   if (box) row('size', box[1].map((x, k) => number(x - box[0][k])).join(' × ') + ' input units');
   row('units', `${number(assembly.scale)} assembly units per input unit`);
