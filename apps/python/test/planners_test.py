@@ -271,7 +271,7 @@ def test_a_step_check_in_python(tmp_path):
 
 def test_what_a_check_raises_is_told_in_the_plan(caplog):
     blocks = dismantle.Assembly.from_meshes(loose_blocks())
-    plan = dismantle.run(blocks, config={**LINES, "sequence_planner": {"type": "queue"}, "objective": ["test.broken"]})
+    plan = dismantle.run(blocks, config={**LINES, "objective": ["test.broken"]})
     assert plan.complete and all("nothing here" in step.checks[0].failed for step in plan.steps)
     assert any("test.broken" in record.message for record in caplog.records)
 

@@ -1,7 +1,9 @@
 #include "preference/preference.h"
 
 #include <algorithm>
+#include <exception>
 #include <numeric>
+#include <string>
 
 namespace dismantle {
 
@@ -34,10 +36,15 @@ double Preference::cost(const CandidateRemoval& candidate, const RunContext& con
 
 std::vector<std::size_t> Preference::sorted(std::span<const CandidateRemoval> candidates,
                                             const RunContext& context) const {
-  std::vector<double> costs;
-  for (const CandidateRemoval& candidate : candidates) costs.push_back(cost(candidate, context));
   std::vector<std::size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<double> costs;
+  if (!guarded(
+          [&] {
+            for (const CandidateRemoval& c : candidates) costs.push_back(cost(c, context));
+          },
+          context))
+    return order;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return costs[a] < costs[b]; });
   return order;
 }
@@ -45,7 +52,19 @@ std::vector<std::size_t> Preference::sorted(std::span<const CandidateRemoval> ca
 void Preference::removed(const CandidateRemoval& removal, const Trace& path, const RunContext& context) {
   if (!active()) return;
   last_.emplace(assembly_, removal.moving, removal.rest, path, objective_.up);
-  last_alone_ = cost_alone(last_->question(), context);
+  guarded([&] { last_alone_ = cost_alone(last_->question(), context); }, context);
+}
+
+bool Preference::guarded(const std::function<void()>& work, const RunContext& context) const {
+  if (failed_) return false;
+  try {
+    work();
+  } catch (const std::exception& e) {
+    failed_ = true;
+    context.log(LogLevel::error,
+                std::string("the objective is not followed any more, a step check failed: ") + e.what());
+  }
+  return !failed_;
 }
 
 }  // namespace dismantle

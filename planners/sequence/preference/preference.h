@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,16 +25,19 @@ class Preference {
  public:
   /// `query` must outlive this.
   explicit Preference(const SequenceQuery& query);
-  /// False: the objective is empty. Then the functions below need not be called.
-  bool active() const { return !objective_.empty(); }
+  /// False: the objective is empty, or a check failed. Then the functions below need not be called.
+  bool active() const { return !objective_.empty() && !failed_; }
   /// Removals that a required check does not allow cost more than any other.
   double cost(const CandidateRemoval& candidate, const RunContext& context) const;
-  /// Indices of the candidates, the one that the objective likes best first; otherwise in their order.
+  /// Indices of the candidates, the one that the objective likes best first; otherwise in their order. When a check
+  /// throws, which is logged as an error, they stay in their order from then on.
   std::vector<std::size_t> sorted(std::span<const CandidateRemoval> candidates, const RunContext& context) const;
   /// Records a removal along this path (columns as `moving`).
   void removed(const CandidateRemoval& removal, const Trace& path, const RunContext& context);
 
  private:
+  /// False: it threw, now or before.
+  bool guarded(const std::function<void()>& work, const RunContext& context) const;
   double cost(const StepQuestion& question, const RunContext& context) const;
   /// Of the operation alone.
   double cost_alone(const StepQuestion& question, const RunContext& context) const;
@@ -42,7 +46,8 @@ class Preference {
   const Objective& objective_;
   bool remembers_ = false;  ///< the cost of an operation may depend on the one before it
   std::optional<Operation> last_;
-  double last_alone_ = 0;  ///< cost of the last removal without an operation before it
+  double last_alone_ = 0;        ///< cost of the last removal without an operation before it
+  mutable bool failed_ = false;  ///< a check threw
 };
 
 }  // namespace dismantle

@@ -96,6 +96,30 @@ TEST(Preference, ChecksThatRememberNothingAreAskedOnce) {
   EXPECT_EQ(rig.check->asked, 3u);
 }
 
+TEST(Preference, AfterACheckHasFailedTheOrderIsThePlannersOwn) {
+  struct Broken final : StepCheck {
+    StepCheckTraits traits() const noexcept override { return {}; }
+    StepVerdict judge(const StepQuestion&, const RunContext&) const override { throw std::runtime_error("broken"); }
+  };
+  Rig rig;
+  rig.check->costs = {{{-1, 0}, 3}};
+  rig.objective.items.push_back({"broken", std::make_shared<Broken>()});
+  const Preference preference(rig.query);
+  std::vector<std::string> logged;
+  RunContext context;
+  context.on_log = [&](LogLevel level, std::string_view text) {
+    EXPECT_EQ(level, LogLevel::error);
+    logged.emplace_back(text);
+  };
+  const std::vector<CandidateRemoval> candidates{rig.candidate(0), rig.candidate(1)};
+  EXPECT_TRUE(preference.active());
+  EXPECT_EQ(preference.sorted(candidates, context), (Order{0, 1}));
+  EXPECT_FALSE(preference.active());
+  EXPECT_EQ(preference.sorted(candidates, context), (Order{0, 1}));
+  ASSERT_EQ(logged.size(), 1u);
+  EXPECT_NE(logged[0].find("broken"), std::string::npos);
+}
+
 TEST(Preference, WithoutAnObjectiveThereIsNone) {
   Rig rig;
   rig.objective.items.clear();
