@@ -149,6 +149,8 @@ void bind_unsolved(py::module_& m) {
       .def_readonly("planner", &PlanUnsolved::planner, "Id of the path planner that searched; empty: none did.")
       .def_readonly("certificate", &PlanUnsolved::certificate,
                     "Index in Plan.certificates: the proof that no motion exists; None: there is no proof.")
+      .def_readonly("refused_by", &PlanUnsolved::refused_by,
+                    "Id of the required step check that did not allow a removal; empty: none did.")
       .def_readonly("depth", &PlanUnsolved::depth, "Largest depth that a search was allowed; 0: one had no limit.")
       .def_property_readonly(
           "places",

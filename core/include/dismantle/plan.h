@@ -132,6 +132,7 @@ struct PlanUnsolved {
   unsigned attempts = 0;                     ///< searches for removing the part, alone or with others
   double seconds = 0;                        ///< of these, together
   unsigned depth = 0;                        ///< the largest depth that was allowed; 0: none of them had a limit
+  std::string refused_by{};         ///< id of the required step check that did not allow a removal; empty: none did
   std::vector<PlanPlace> places{};  ///< what the part touches at `best_pose`: the deepest contact with each other part
 };
 

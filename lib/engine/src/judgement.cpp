@@ -104,17 +104,20 @@ std::string difference(const PlanVerdict& stated, const PlanVerdict& now) {
 
 }  // namespace
 
+Operation operation_of(const Disassembly& disassembly, std::size_t k, const Assembly& assembly,
+                       const Eigen::Vector3d& up) {
+  const DisassemblyStep& step = disassembly.steps().at(k);
+  std::vector<PartId> present;
+  for (PartId id = 0; id < disassembly.parts(); ++id)
+    if (disassembly.group(id, k) == disassembly.left_group(k) && !contains(step.parts, id)) present.push_back(id);
+  return {assembly, disassembly.placed(step.parts, k), disassembly.placed(present, k), *step.path, up};
+}
+
 std::deque<Operation> operations_of(const Disassembly& disassembly, const Assembly& assembly,
                                     const Eigen::Vector3d& up) {
   std::deque<Operation> operations;
-  for (std::size_t k = disassembly.steps().size(); k-- > 0;) {
-    const DisassemblyStep& step = disassembly.steps()[k];
-    std::vector<PartId> present;
-    for (PartId id = 0; id < disassembly.parts(); ++id)
-      if (disassembly.group(id, k) == disassembly.left_group(k) && !contains(step.parts, id)) present.push_back(id);
-    operations.emplace_back(assembly, disassembly.placed(step.parts, k), disassembly.placed(present, k), *step.path,
-                            up);
-  }
+  for (std::size_t k = disassembly.steps().size(); k-- > 0;)
+    operations.push_back(operation_of(disassembly, k, assembly, up));
   return operations;
 }
 

@@ -58,6 +58,7 @@ std::string summary_text(const Plan& plan) {
   for (const auto& u : plan.unsolved) {
     out += fmt::format("unsolved: {}: {}", u.part, to_string(u.outcome));
     if (!u.blocked_by.empty()) out += fmt::format(", blocked by {}", text::joined(u.blocked_by));
+    if (!u.refused_by.empty()) out += fmt::format(", refused by the step check '{}'", u.refused_by);
     out += '\n';
   }
   return out;

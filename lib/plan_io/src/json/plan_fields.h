@@ -157,6 +157,7 @@ void fields(auto& v, Is<PlanUnsolved> auto& u) {
   v("attempts", u.attempts, searched);
   v("seconds", u.seconds, searched, from_zero);
   v("depth", u.depth, searched);
+  v("refused_by", u.refused_by, if_set);
   v("places", u.places, if_set);
 }
 

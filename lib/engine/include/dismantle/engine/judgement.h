@@ -17,7 +17,10 @@
 
 namespace dismantle {
 
-/// The steps as assembly operations, in the order of assembly: the last step first. They refer to `assembly`.
+/// Step `k`, from 0, as an assembly operation. It refers to `assembly`.
+DISMANTLE_API Operation operation_of(const Disassembly& disassembly, std::size_t k, const Assembly& assembly,
+                                     const Eigen::Vector3d& up);
+/// All steps as assembly operations, in the order of assembly: the last step first.
 DISMANTLE_API std::deque<Operation> operations_of(const Disassembly& disassembly, const Assembly& assembly,
                                                   const Eigen::Vector3d& up);
 
