@@ -54,7 +54,8 @@ int verify(const Verify& options) {
     console.warning(fmt::format(
         "the plan was made with weld: {:g}, repair: {}, max_hole: {:g}; surfaces are verified as repaired with these",
         r.weld, r.repair, r.max_hole));
-  const PlanCheck check = check_plan(plan, assembly, tolerance, context, prover_of_kind(registry));
+  PlanCheck check = check_plan(plan, assembly, tolerance, context, prover_of_kind(registry));
+  judge_again(check, plan, assembly, check_of_type(registry), context);
   console.end_progress();
   if (context.cancel.cancelled()) throw Stopped(context, "interrupted before all steps were checked");
 
@@ -72,6 +73,8 @@ int verify(const Verify& options) {
                   {"certificates", check.certificates},
                   {"checked_independently", check.certificates - check.checked_by_prover},
                   {"checked_by_prover", check.checked_by_prover},
+                  {"verdicts", check.verdicts},
+                  {"not_checked", check.not_checked},
                   {"problems", problems},
                   {"plan", options.plan}});
   return check.valid && check.complete ? kComplete : kPartial;

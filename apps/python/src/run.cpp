@@ -151,7 +151,9 @@ PlanCheck verify(const HeldPlan& held, const py::object& given, double tolerance
                            ? InputParts{*raw, sha256, {}}
                            : read_input(path, importers_of(*registry, held.plan.assembly.import_params), read, context);
     const Assembly assembly = assembly_of_plan(held.plan, std::move(input), path, context);
-    return check_plan(held.plan, assembly, {tolerance}, context, prover_of_kind(*registry));
+    PlanCheck check = check_plan(held.plan, assembly, {tolerance}, context, prover_of_kind(*registry));
+    judge_again(check, held.plan, assembly, check_of_type(*registry), context);
+    return check;
   });
 }
 
@@ -171,6 +173,9 @@ void bind_run(py::module_& m) {
       .def_readonly("certificates", &PlanCheck::certificates, "Number of certificates that hold.")
       .def_readonly("checked_by_prover", &PlanCheck::checked_by_prover,
                     "Of these: checked by the prover that made them, for want of an independent checker.")
+      .def_readonly("verdicts", &PlanCheck::verdicts, "Number of verdicts of step checks that were judged again.")
+      .def_readonly("not_checked", &PlanCheck::not_checked,
+                    "List of str: step checks of the plan that are not available here, and why.")
       .def_readonly("max_penetration", &PlanCheck::max_penetration,
                     "Worst certified bound over all steps, above the initial overlap; assembly units.")
       .def_readonly("step_penetration", &PlanCheck::step_penetration, "The bound of each step.")

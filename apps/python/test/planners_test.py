@@ -265,6 +265,11 @@ def test_a_step_check_in_python(tmp_path):
             for verdict in step.checks:
                 assert (verdict.type, verdict.weight, verdict.allowed) == ("test.alphabet", 2, True)
                 assert [n.data for n in verdict.notes] == (['{"from": 1.0e0}'] if verdict.cost else [])
+        check = dismantle.verify(plan, blocks)
+        assert check.valid and check.verdicts == 3 and not check.not_checked
+        foreign = dismantle.Plan.from_json(plan.to_json().replace("test.alphabet", "acme.unknown"))
+        check = dismantle.verify(foreign, blocks)
+        assert check.valid and check.verdicts == 0 and "acme.unknown" in check.not_checked[0]
         read = dismantle.Plan.from_json(plan.to_json())
         assert read.to_json() == plan.to_json()
 

@@ -148,51 +148,50 @@ void judge(Plan& plan, const Disassembly& disassembly, const Assembly& assembly,
   }
 }
 
-JudgementCheck judge_again(const Plan& plan, const Disassembly& disassembly, const Assembly& assembly,
-                           const CheckOfType& check_of_type, const RunContext& context) {
-  JudgementCheck out;
+void judge_again(PlanCheck& check, const Plan& plan, const Assembly& assembly, const CheckOfType& check_of_type,
+                 const RunContext& context) {
+  if (!check.valid) return;
+  const auto problem = [&](unsigned step, std::string text) {
+    check.valid = check.complete = false;
+    check.problems.push_back({step, std::move(text)});
+  };
   const PlanObjective& stated = plan.objective;
   for (const PlanStep& step : plan.disassembly) {
     const bool same = std::equal(step.checks.begin(), step.checks.end(), stated.checks.begin(), stated.checks.end(),
                                  [](const PlanVerdict& v, const PlanObjectiveItem& item) {
                                    return v.type == item.type && v.weight == item.weight;
                                  });
-    if (!same) {
-      out.problems.push_back(fmt::format("step {}: its checks are not those of the objective", step.step));
-      return out;
-    }
+    if (!same) return problem(step.step, "its checks are not those of the objective");
   }
-  if (stated.empty()) return out;
-  const std::deque<Operation> operations = operations_of(disassembly, assembly, stated.up);
+  if (stated.empty()) return;
+  const std::deque<Operation> operations = operations_of(disassembly_of(plan, assembly), assembly, stated.up);
   const Questions questions(operations);
   double cost = 0;
   for (std::size_t c = 0; c < stated.checks.size(); ++c) {
     const PlanObjectiveItem& item = stated.checks[c];
     cost += item.weight * item.cost;
     if (!near(item.cost, total(plan, c)))
-      out.problems.push_back(fmt::format("objective: '{}' costs {:.6g} in all, not {:.6g} as its verdicts say",
-                                         item.type, item.cost, total(plan, c)));
-    std::shared_ptr<const StepCheck> check;
+      problem(0, fmt::format("objective: '{}' costs {:.6g} in all, not {:.6g} as its verdicts say", item.type,
+                             item.cost, total(plan, c)));
+    std::shared_ptr<const StepCheck> made;
     try {
-      check = check_of_type(item.type, item.parameters);
+      made = check_of_type(item.type, item.parameters);
     } catch (const std::exception& e) {
-      out.not_checked.push_back(fmt::format("'{}': {}", item.type, e.what()));
+      check.not_checked.push_back(fmt::format("'{}': {}", item.type, e.what()));
       continue;
     }
-    const Judged judged = judge_with(*check, item, questions, assembly, context);
-    for (std::size_t k = 0; k < judged.steps.size(); ++k, ++out.verdicts)
+    const Judged judged = judge_with(*made, item, questions, assembly, context);
+    for (std::size_t k = 0; k < judged.steps.size(); ++k, ++check.verdicts)
       if (const auto text = difference(plan.disassembly[k].checks[c], judged.steps[k]); !text.empty())
-        out.problems.push_back(fmt::format("step {}: '{}': {}", k + 1, item.type, text));
+        problem(plan.disassembly[k].step, fmt::format("'{}': {}", item.type, text));
     if (item.plan.has_value() != judged.plan.has_value())
-      out.problems.push_back(fmt::format("objective: '{}' judges {}, which the plan does not say", item.type,
-                                         judged.plan ? "the plan as a whole" : "steps only"));
+      problem(0, fmt::format("objective: '{}' judges {}, which the plan does not say", item.type,
+                             judged.plan ? "the plan as a whole" : "steps only"));
     else if (judged.plan)
       if (const auto text = difference(*item.plan, *judged.plan); !text.empty())
-        out.problems.push_back(fmt::format("the plan as a whole: '{}': {}", item.type, text));
+        problem(0, fmt::format("objective: '{}': {}", item.type, text));
   }
-  if (!near(stated.cost, cost))
-    out.problems.push_back(fmt::format("objective: the sum is {:.6g}, not {:.6g}", cost, stated.cost));
-  return out;
+  if (!near(stated.cost, cost)) problem(0, fmt::format("objective: the sum is {:.6g}, not {:.6g}", cost, stated.cost));
 }
 
 }  // namespace dismantle

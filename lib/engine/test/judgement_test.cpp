@@ -2,6 +2,7 @@
 // way.
 #include "dismantle/engine/judgement.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -157,10 +158,11 @@ TEST(Judgement, ACheckThatFailsIsNoVerdict) {
 }
 
 /// Judges the plan again as it is after writing and reading.
-JudgementCheck again(const Plan& plan, const CheckOfType& check_of_type) {
-  const Assembly assembly = fake::tube_with_blocks(3);
-  const Plan read = plan_from_json(to_json(plan), "p");
-  return judge_again(read, disassembly_of(read, assembly), assembly, check_of_type, RunContext{});
+PlanCheck again(const Plan& plan, const CheckOfType& check_of_type) {
+  PlanCheck check;
+  check.valid = true;
+  judge_again(check, plan_from_json(to_json(plan), "p"), fake::tube_with_blocks(3), check_of_type, RunContext{});
+  return check;
 }
 
 StepVerdict by_height(const StepQuestion& q) {
@@ -171,13 +173,13 @@ StepVerdict by_height(const StepQuestion& q) {
 TEST(Judgement, AgainIsTheSame) {
   const Objective objective = objective_of(by_height, 2, true);
   const Plan plan = run_with(objective).plan;
-  const JudgementCheck check = again(plan, [&](const std::string& type, const ParamSet& parameters) {
+  const PlanCheck check = again(plan, [&](const std::string& type, const ParamSet& parameters) {
     EXPECT_EQ(type, "scripted");
     EXPECT_EQ(parameters, (ParamSet{{"x", 1.5}}));
     return objective.items[0].check;
   });
   EXPECT_EQ(check.verdicts, 3u);
-  EXPECT_TRUE(check.problems.empty()) << check.problems.front();
+  EXPECT_TRUE(check.valid && check.problems.empty()) << check.problems.front().message;
   EXPECT_TRUE(check.not_checked.empty());
 }
 
@@ -187,9 +189,11 @@ TEST(Judgement, WhatIsStatedWronglyIsFound) {
   const auto expect = [&](const std::function<void(Plan&)>& change, const std::string& said) {
     Plan plan = right;
     change(plan);
-    const JudgementCheck check = again(plan, [&](const auto&, const auto&) { return objective.items[0].check; });
+    const PlanCheck check = again(plan, [&](const auto&, const auto&) { return objective.items[0].check; });
     ASSERT_FALSE(check.problems.empty()) << said;
-    EXPECT_NE(check.problems.front().find(said), std::string::npos) << check.problems.front();
+    EXPECT_FALSE(check.valid);
+    const std::string text = fmt::format("step {}: {}", check.problems.front().step, check.problems.front().message);
+    EXPECT_NE(text.find(said), std::string::npos) << text;
   };
   const auto shift = [](Plan& p, double by) {
     p.disassembly[1].checks[0].cost += by;
@@ -215,7 +219,7 @@ TEST(Judgement, WhatIsStatedWronglyIsFound) {
 
 TEST(Judgement, ACheckThatIsNotThereIsNotChecked) {
   const Plan plan = run_with(objective_of(by_height)).plan;
-  const JudgementCheck check = again(plan, [](const auto&, const auto&) -> std::shared_ptr<const StepCheck> {
+  const PlanCheck check = again(plan, [](const auto&, const auto&) -> std::shared_ptr<const StepCheck> {
     throw std::runtime_error("no such plugin");
   });
   EXPECT_EQ(check.verdicts, 0u);

@@ -68,6 +68,21 @@ ProverOfKind prover_of_kind(const Registry& registry) {
   };
 }
 
+/// A plan file may store a number without a fraction as an integer.
+static ParamSet with_numbers(const std::vector<ParamSpec>& specs, ParamSet values) {
+  for (const auto& spec : specs)
+    if (const auto it = values.find(spec.name); it != values.end() && spec.type == ParamType::number)
+      if (const auto* integer = std::get_if<std::int64_t>(&it->second)) it->second = static_cast<double>(*integer);
+  return values;
+}
+
+CheckOfType check_of_type(const Registry& registry) {
+  return [&registry](const std::string& type, const ParamSet& parameters) -> std::shared_ptr<const StepCheck> {
+    const std::vector<ParamSpec>& specs = registry.find(PluginKind::step_check, type).type.params;
+    return registry.create<StepCheck>(type, with_numbers(specs, parameters));
+  };
+}
+
 RunOptions run_options_of(const RunConfig& config, const std::string& part) {
   RunOptions out;
   out.path_timeout = config.run.path_timeout;
@@ -87,11 +102,7 @@ std::vector<std::shared_ptr<Importer>> importers_of(const Registry& registry, co
   std::vector<std::shared_ptr<Importer>> out;
   for (const RegisteredType* type : registry.types(PluginKind::importer)) {
     const auto given = params.find(type->type.id);
-    ParamSet values = given == params.end() ? ParamSet{} : given->second;
-    // A plan file may store a number without a fraction as an integer.
-    for (const auto& spec : type->type.params)
-      if (const auto it = values.find(spec.name); it != values.end() && spec.type == ParamType::number)
-        if (const auto* integer = std::get_if<std::int64_t>(&it->second)) it->second = static_cast<double>(*integer);
+    const ParamSet values = with_numbers(type->type.params, given == params.end() ? ParamSet{} : given->second);
     out.push_back(registry.create<Importer>(type->type.id, values));
   }
   return out;

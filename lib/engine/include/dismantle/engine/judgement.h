@@ -6,7 +6,6 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "dismantle/disassembly.h"
 #include "dismantle/export.h"
@@ -14,6 +13,7 @@
 #include "dismantle/plan.h"
 #include "dismantle/run_context.h"
 #include "dismantle/step_check.h"
+#include "dismantle/verification/check_plan.h"
 
 namespace dismantle {
 
@@ -33,15 +33,9 @@ DISMANTLE_API void judge(Plan& plan, const Disassembly& disassembly, const Assem
 using CheckOfType =
     std::function<std::shared_ptr<const StepCheck>(const std::string& type, const ParamSet& parameters)>;
 
-/// How the verdicts of a plan compare to those of the same checks now.
-struct JudgementCheck {
-  std::size_t verdicts = 0;              ///< judged again
-  std::vector<std::string> problems;     ///< verdicts or sums that differ
-  std::vector<std::string> not_checked;  ///< "'acme.x': ...": a check that is not available here, and why
-};
-
-/// Judges the steps of a plan again. `disassembly`: of the plan (disassembly_of()).
-DISMANTLE_API JudgementCheck judge_again(const Plan& plan, const Disassembly& disassembly, const Assembly& assembly,
-                                         const CheckOfType& check_of_type, const RunContext& context);
+/// Judges the steps of a plan again that check_plan() has found valid, and adds what it finds to `check`: the plan is
+/// not valid when a verdict or a sum differs from what it says.
+DISMANTLE_API void judge_again(PlanCheck& check, const Plan& plan, const Assembly& assembly,
+                               const CheckOfType& check_of_type, const RunContext& context);
 
 }  // namespace dismantle

@@ -30,6 +30,8 @@ struct PlanCheck {
   std::size_t checked_by_prover = 0;  ///< those checked by their prover, since there is no independent checker
   double max_penetration = 0;         ///< worst certified bound over all steps
   std::vector<double> step_penetration;
+  std::size_t verdicts = 0;  ///< of step checks, judged again by judge_again() (dismantle/engine/judgement.h)
+  std::vector<std::string> not_checked{};  ///< by judge_again(): "'acme.x': ...": a step check that is not available
   std::vector<PlanProblem> problems;
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dismantle/engine/judgement.h"
 #include "dismantle/engine/run.h"
 #include "dismantle/export.h"
 #include "dismantle/host/config.h"
@@ -27,6 +28,9 @@ DISMANTLE_API std::vector<std::shared_ptr<Importer>> importers_of(const Registry
 
 /// Returns the immobility prover of a certificate kind, with its defaults. `registry` must outlive the result.
 DISMANTLE_API ProverOfKind prover_of_kind(const Registry& registry);
+
+/// Creates step checks. Its function throws PluginError when there is no such check. `registry` must outlive the result.
+DISMANTLE_API CheckOfType check_of_type(const Registry& registry);
 
 /// The parameters in `config.importers` that differ from the defaults.
 DISMANTLE_API ImportParams import_params_of(const RunConfig& config, const Registry& registry);
