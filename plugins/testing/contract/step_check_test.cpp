@@ -9,6 +9,9 @@
 #include <thread>
 #include <vector>
 
+#include "dismantle/engine/judgement.h"
+#include "dismantle/plan_io/plan_file.h"
+#include "dismantle/testing/run_rig.h"
 #include "small_assemblies.h"
 
 namespace dismantle::contract {
@@ -159,6 +162,34 @@ TEST_P(StepCheckContract, JudgesAPlanAsAWholeOnlyIfItSaysSo) {
     EXPECT_TRUE(std::isfinite(once.cost) && once.cost >= 0) << once.cost;
     if (!check->traits().judges_plan) expect_same(once, StepVerdict{}, "it does not judge plans");
     expect_same(once, make()->judge_plan(questions, RunContext{}), "by another object");
+  }
+}
+
+// A run judges what a reader of its plan file judges, and what the check says survives writing and reading.
+TEST_P(StepCheckContract, SameVerdictFromPlanAndVerify) {
+  for (const Assembly& assembly : {fake::tube_with_blocks(4), fake::row(5)}) {
+    PlanningSetup setup = fake::setup(fake::push, std::make_shared<fake::InTurn>());
+    setup.objective.items.push_back({GetParam(), make()});
+    RunContext context;
+    const Plan plan = run(assembly, setup, RunOptions{}, context).plan;
+    ASSERT_GE(plan.disassembly.size(), 3u);
+    const std::string text = to_json(plan);
+    const Plan read = plan_from_json(text, "plan.json");
+    EXPECT_EQ(to_json(read), text);
+    for (std::size_t k = 0; k < plan.disassembly.size(); ++k) {
+      const PlanVerdict &said = plan.disassembly[k].checks.at(0), &again = read.disassembly[k].checks.at(0);
+      EXPECT_EQ(said.failed, "");
+      EXPECT_EQ(said.notes, again.notes);
+      EXPECT_EQ(said.reason, again.reason);
+    }
+    PlanCheck check;
+    check.valid = true;
+    judge_again(
+        check, read, assembly, [](const std::string&, const ParamSet&) { return make(); }, context);
+    for (const PlanProblem& problem : check.problems)
+      ADD_FAILURE() << "step " << problem.step << ": " << problem.message;
+    EXPECT_EQ(check.verdicts, plan.disassembly.size());
+    EXPECT_TRUE(check.not_checked.empty());
   }
 }
 
