@@ -66,9 +66,17 @@ const Certificate* RequiringOracle::prove(const SeparationQuestion& question, co
 
 ForcingOracle* RequiringOracle::forcing() { return forcing_.get(); }
 
-const std::map<PartId, Refusal>& RequiringOracle::refusals() {
+std::string RequiringOracle::refused_by(PartId part) {
   follow_steps();
-  return refusals_;
+  const auto refusal = refusals_.find(part);
+  return refusal == refusals_.end() ? "" : refusal->second.check;
+}
+
+void RequiringOracle::explain(std::vector<Unsolved>& unsolved) {
+  follow_steps();
+  for (Unsolved& u : unsolved)
+    if (const auto refusal = refusals_.find(u.part); refusal != refusals_.end() && u.certificate == nullptr)
+      u.message = refusal->second.message;
 }
 
 void RequiringOracle::follow_steps() {

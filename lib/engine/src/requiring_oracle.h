@@ -41,8 +41,10 @@ class RequiringOracle final : public PathOracle {
   PartMemo* memo() override { return oracle_.memo(); }
   ForcingOracle* forcing() override;
 
-  /// By part: the last refusal of a removal since the last recorded one.
-  const std::map<PartId, Refusal>& refusals();
+  /// Id of the check that refused a removal of this part since the last recorded removal; empty: none did.
+  std::string refused_by(PartId part);
+  /// Says so in the reasons for parts that are left. A proof that a part cannot leave explains more.
+  void explain(std::vector<Unsolved>& unsolved);
 
  private:
   class Forcing;

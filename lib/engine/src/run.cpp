@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "assembler.h"
 #include "deferred_simulator.h"
+#include "dismantle/engine/judgement.h"
 #include "dismantle/errors.h"
 #include "dismantle/executor.h"
 #include "dismantle/part_set.h"
@@ -19,6 +21,7 @@
 #include "reasons.h"
 #include "recorder.h"
 #include "replay.h"
+#include "requiring_oracle.h"
 #include "rng_streams.h"
 #include "step_overlaps.h"
 #include "stopwatch.h"
@@ -61,8 +64,8 @@ void check(const Assembly& assembly, const PlanningSetup& setup, const RunOption
   if (options.resume && !options.start.empty()) throw std::invalid_argument("a run has one start");
 }
 
-SequenceResult plan_sequence(const SequenceQuery& query, SequencePlanner& planner, Oracle& oracle, Recorder& recorder,
-                             const RunContext& context) {
+SequenceResult plan_sequence(const SequenceQuery& query, SequencePlanner& planner, PathOracle& oracle,
+                             Recorder& recorder, const RunContext& context) {
   RunContext own = context;
   own.rng = context.rng.fork(sequence_stream);
   SequenceResult result;
@@ -83,7 +86,7 @@ SequenceResult plan_sequence(const SequenceQuery& query, SequencePlanner& planne
   return result;
 }
 
-SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, Recorder& recorder,
+SequenceResult plan_one(const Assembly& assembly, PartId part, PathOracle& oracle, Recorder& recorder,
                         RunContext context) {
   Attempt attempt{recorder.disassembly().placed(std::vector{part}), recorder.disassembly().around(part)};
   SequenceResult result;
@@ -173,14 +176,17 @@ class Run {
     if (options_.resume) replay(*options_.resume, assembly_, oracle_, recorder_, context_);
     const SequenceQuery query{assembly_, open_groups(recorder_.disassembly(), options_.constraints),
                               options_.constraints, setup_.objective};
+    if (RequiringOracle::is_needed(setup_.objective))
+      requiring_.emplace(assembly_, setup_.objective, recorder_.disassembly(), oracle_);
+    PathOracle& asked = requiring_ ? static_cast<PathOracle&>(*requiring_) : oracle_;
     if (context_.should_stop())
       sequence_.outcome = why_stopped(context_);
     else if (only_one())
-      sequence_ = plan_one(assembly_, part_named(assembly_, options_.only_part), oracle_, recorder_, context_);
+      sequence_ = plan_one(assembly_, part_named(assembly_, options_.only_part), asked, recorder_, context_);
     else if (query.start.empty())
       sequence_.outcome = Outcome::solved;
     else
-      sequence_ = plan_sequence(query, *setup_.sequence_planner, oracle_, recorder_, context_);
+      sequence_ = plan_sequence(query, *setup_.sequence_planner, asked, recorder_, context_);
   }
 
   /// States why parts are left.
@@ -205,7 +211,10 @@ class Run {
         prove_left(unsolved, left, oracle_.proofs(), options_.proofs, context_);
       }
     }
+    if (requiring_) requiring_->explain(unsolved);
     set_unsolved(result.plan, unsolved, assembly_, done, oracle_, places);
+    if (requiring_)
+      for (PlanUnsolved& u : result.plan.unsolved) u.refused_by = requiring_->refused_by(part_named(assembly_, u.part));
     state_proofs(result.plan, sequence_.proofs, assembly_);
   }
 
@@ -232,6 +241,7 @@ class Run {
     for (std::size_t i = 0; i < overlaps.size(); ++i) result.plan.disassembly[i].overlaps = std::move(overlaps[i]);
     for (const auto& [a, b] : part_precedence(done, needed))
       result.precedence.emplace_back(assembly_.parts[a].name, assembly_.parts[b].name);
+    judge(result.plan, done, assembly_, setup_.objective, context_);
     if (!puts_together) return;
     result.plan.assembly_steps = std::move(back.steps);
     result.plan.assembly_status = back.status;
@@ -247,6 +257,7 @@ class Run {
   const Verifier verifier_;
   Oracle oracle_;
   Recorder recorder_;
+  std::optional<RequiringOracle> requiring_;  // when a check of the objective is required
   SequenceResult sequence_;
 };
 

@@ -58,6 +58,8 @@ std::vector<std::string> names_of(const std::vector<PartId>& parts, const Assemb
   return names;
 }
 
+}  // namespace
+
 PlanCertificate to_plan(const Certificate& certificate, const Assembly& assembly) {
   PlanCertificate written;
   written.kind = certificate.kind;
@@ -73,12 +75,14 @@ PlanCertificate to_plan(const Certificate& certificate, const Assembly& assembly
   return written;
 }
 
+namespace {
+
 /// Its index in plan.certificates, where each is written once.
 std::size_t index_of(const Certificate& certificate, Plan& plan, const Assembly& assembly) {
   PlanCertificate written = to_plan(certificate, assembly);
   const auto known = std::find_if(plan.certificates.begin(), plan.certificates.end(), [&](const PlanCertificate& c) {
-    return c.kind == written.kind && c.parts == written.parts && c.margin == written.margin &&
-           c.text == written.text && c.numbers == written.numbers;
+    return c.kind == written.kind && c.parts == written.parts && c.margin == written.margin && c.text == written.text &&
+           c.numbers == written.numbers;
   });
   const auto index = static_cast<std::size_t>(known - plan.certificates.begin());
   if (known == plan.certificates.end()) plan.certificates.push_back(std::move(written));
@@ -127,8 +131,7 @@ Plan plan_of(const Disassembly& disassembly, const Assembly& assembly, const Run
   plan.seed = options.seed;
   plan.verified_max_penetration = options.verify.max_penetration;
   plan.assembly = to_plan(assembly, options.flexible);
-  for (const DisassemblyStep& step : disassembly.steps())
-    plan.disassembly.push_back(to_plan(step, plan, assembly));
+  for (const DisassemblyStep& step : disassembly.steps()) plan.disassembly.push_back(to_plan(step, plan, assembly));
   for (auto step = plan.disassembly.rbegin(); step != plan.disassembly.rend(); ++step) {
     plan.assembly_steps.push_back(reversed(*step));
     plan.assembly_steps.back().step = static_cast<unsigned>(plan.assembly_steps.size());

@@ -17,6 +17,9 @@ namespace dismantle {
 /// The deepest contact of a part at pose `at` with each other part of its group; ascending by the other part.
 using ContactsOf = std::function<std::vector<Contact>(PartId part, const Pose& at)>;
 
+/// With names, and poses on input coordinates.
+PlanCertificate to_plan(const Certificate& certificate, const Assembly& assembly);
+
 /// Sets plan.unsolved, and adds their proofs to plan.certificates. `places` may be empty: then the contacts at the best
 /// poses are not known.
 void set_unsolved(Plan& plan, const std::vector<Unsolved>& unsolved, const Assembly& assembly,

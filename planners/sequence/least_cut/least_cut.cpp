@@ -106,7 +106,8 @@ class Step {
     // A depth that is not measured yet has to be; the time for a proof is shared with the other steps.
     own.deadline = choice->measured ? budget_.for_measuring(steps_left()) : budget_.for_all();
     const AttemptResult& answer = oracle_.forcing()->propose_forced(question, path, choice->depth, said, own);
-    return context_.cancel.cancelled() ? nullptr : &answer;
+    // A required check of the objective may not allow it.
+    return context_.cancel.cancelled() || !answer.removes() ? nullptr : &answer;
   }
 
  private:
