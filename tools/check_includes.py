@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Fails when the source tree breaks the rules of docs/architecture.md, "The include rule":
 
-- core <- parallel <- geometry <- verification <- preparation, plan_io <- book, engine <- host <- apps, bench: no #include against the arrows;
+- core <- process; core <- parallel <- geometry <- verification <- preparation, plan_io <- book, engine <- host <- apps, bench: no #include against the arrows;
 - a plugin includes core, geometry, the plugin sdk and the shared libraries of its kind (folders without a plugin: KIND/common and
-  others that build a library), never another plugin;
+  others that build a library), an importer also process; never another plugin;
 - core has at most 1900 lines of code (comments and empty lines are free), a file 400, a class 40 methods (a rough count of the declarations in its body)."""
 import argparse
 import os
@@ -21,6 +21,7 @@ BELOW_ENGINE = {"lib/geometry", "lib/verification", "lib/preparation", "lib/plan
 ALLOWED = {
     "core": set(),
     "lib/parallel": set(),
+    "lib/process": set(),
     "lib/geometry": set(),
     "lib/verification": {"lib/geometry"},
     "lib/preparation": {"lib/geometry", "lib/verification"},
@@ -31,10 +32,11 @@ ALLOWED = {
     "plugins/sdk": {"lib/geometry"},
     "plugins/host": BELOW_ENGINE | {"lib/engine", "plugins/sdk"},
     "plugins/testing": BELOW_ENGINE | {"lib/engine", "lib/samples", "plugins/sdk", "plugins/host"},
-    "lib/bench": BELOW_ENGINE | {"lib/engine", "lib/samples", "plugins/sdk", "plugins/host"},
-    "apps": BELOW_ENGINE | {"lib/book", "lib/engine", "lib/samples", "lib/bench", "plugins/sdk", "plugins/host"},
+    "lib/bench": BELOW_ENGINE | {"lib/process", "lib/engine", "lib/samples", "plugins/sdk", "plugins/host"},
+    "apps": BELOW_ENGINE | {"lib/process", "lib/book", "lib/engine", "lib/samples", "lib/bench", "plugins/sdk", "plugins/host"},
 }
 PLUGIN_MAY = {"lib/geometry", "plugins/sdk"}
+IMPORTER_MAY = PLUGIN_MAY | {"lib/process"}
 # Folders of plugin kinds, and the depth of the plugin folders below them.
 KINDS = {"simulators": 1, "plugins/importers": 1, "planners": 2}
 
@@ -168,7 +170,8 @@ def check(root):
         place = place_of(f)
         if place is None or is_test(f):
             continue
-        allowed = ALLOWED[place] if place in ALLOWED else PLUGIN_MAY | shared_for(place, libraries)
+        allowed = ALLOWED[place] if place in ALLOWED else shared_for(place, libraries) | (
+            IMPORTER_MAY if kind_of(place) == "plugins/importers" else PLUGIN_MAY)
         for included in INCLUDE.findall(text[f]):
             target = target_of(f, included)
             to = target and place_of(target)

@@ -4,9 +4,6 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -29,15 +26,6 @@ std::int64_t now() {
       .count();
 }
 
-/// Does nothing in sanitizer builds, because sanitizers reserve terabytes of address space.
-void limit_memory([[maybe_unused]] std::int64_t mib) {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  const rlimit limit = {static_cast<rlim_t>(mib) << 20, static_cast<rlim_t>(mib) << 20};
-  if (::setrlimit(RLIMIT_AS, &limit) != 0)
-    throw Error(fmt::format("memory cannot be limited to {} MiB: {}", mib, std::generic_category().message(errno)));
-#endif
-}
-
 }  // namespace
 
 Isolation::Isolation(std::int64_t memory) : memory_(memory) {
@@ -47,17 +35,8 @@ Isolation::Isolation(std::int64_t memory) : memory_(memory) {
   if (shared == MAP_FAILED)
     throw Error("no memory to share with a child process: " + std::generic_category().message(errno));
   notes_ = new (shared) RunNotes;
-  const pid_t parent = ::getpid();
-  child_ = ::fork();
-  if (child_ < 0) throw Error("cannot start a child process: " + std::generic_category().message(errno));
-  if (child_ == 0) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(kPluginFailed);
-    ::setpgid(0, 0);  // only the parent receives Ctrl-C and forwards it
-    limit_memory(memory_);
-    return;
-  }
-  ::setpgid(child_, child_);  // in both processes, since either may run first
+  child_.emplace(process::Limits{.memory = static_cast<std::uint64_t>(memory_) << 20});
+  if (in_child()) return;
   struct sigaction action = {};
   action.sa_handler = on_told;
   sigemptyset(&action.sa_mask);
@@ -65,29 +44,18 @@ Isolation::Isolation(std::int64_t memory) : memory_(memory) {
   ::sigaction(SIGTERM, &action, nullptr);
 }
 
-Isolation::~Isolation() {
-  if (child_ <= 0) return;
-  ::kill(-child_, SIGKILL);
-  int status = 0;
-  while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
-  }
-}
-
 IsolatedEnd Isolation::wait() {
   IsolatedEnd end;
-  int passed_on = 0, status = 0;
+  int passed_on = 0;
   std::int64_t last_moment = 0;  // when to kill the child after Ctrl-C; 0: none
   // Extra time beyond the child's grace, ns, so that its own watchdog acts first: that one can save more.
   const std::int64_t margin = 5'000'000'000;
   std::string killed_for;
-  while (true) {
-    const pid_t pid = ::waitpid(child_, &status, WNOHANG);
-    if (pid == child_) break;
-    if (pid < 0 && errno != EINTR) throw Error("the child process is lost: " + std::generic_category().message(errno));
+  while (!child_->ended()) {
     const int told = g_told.load();
     const std::int64_t grace = notes_->grace.load(), limit = notes_->end.load();
     if (told > passed_on && passed_on == 0) {
-      ::kill(child_, SIGINT);
+      child_->signal(SIGINT);
       passed_on = 1;
       if (grace > 0) last_moment = now() + grace + margin;
     }
@@ -98,19 +66,17 @@ IsolatedEnd Isolation::wait() {
       if (last_moment > 0 && now() > last_moment) killed_for = "it was interrupted, and did not stop (run.grace)";
       if (!killed_for.empty()) {
         end.interrupted = told > 1;
-        ::kill(-child_, SIGKILL);
+        child_->kill();
       }
     }
     ::poll(nullptr, 0, 20);
   }
-  ::kill(-child_, SIGKILL);  // descendants that may still run
-  child_ = -1;
-  end.exited = WIFEXITED(status);
+  const int signal = child_->end().signal;
+  end.exited = signal == 0;
   if (end.exited) {
-    end.status = WEXITSTATUS(status);
+    end.status = child_->end().status;
     return end;
   }
-  const int signal = WTERMSIG(status);
   if (passed_on > 0 && signal == SIGINT) end.interrupted = true;  // the child had no handler yet
   std::string who = notes_->culprit.get();
   if (!killed_for.empty())

@@ -2,11 +2,11 @@
 /// crashes, hangs or uses too much memory.
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include "dismantle/process/child.h"
 #include "dismantle/run_notes.h"
 
 namespace dismantle::app {
@@ -25,11 +25,8 @@ class Isolation {
   /// `memory`: MiB of address space that the child may use; 0: the machine's physical memory.
   /// @throws Error when the child cannot be created.
   explicit Isolation(std::int64_t memory);
-  ~Isolation();  ///< in the parent: kills the child if it still runs
-  Isolation(const Isolation&) = delete;
-  Isolation& operator=(const Isolation&) = delete;
 
-  bool in_child() const { return child_ == 0; }
+  bool in_child() const { return child_->is_copy(); }
   /// Shared by both processes.
   RunNotes& notes() { return *notes_; }
   /// In the parent: waits for the child, forwards Ctrl-C and SIGTERM, and kills a child that does not stop.
@@ -37,8 +34,8 @@ class Isolation {
 
  private:
   RunNotes* notes_ = nullptr;
-  pid_t child_ = -1;
-  std::int64_t memory_ = 0;  // MiB
+  std::optional<process::Child> child_;  // killed with this if it still runs
+  std::int64_t memory_ = 0;              // MiB
 };
 
 }  // namespace dismantle::app

@@ -6,8 +6,10 @@
 
 #include <cctype>
 #include <cstring>
+#include <span>
 
 #include "dismantle/errors.h"
+#include "dismantle/process/child.h"
 #include "stream_reader.h"
 
 namespace dismantle::reader_process {
@@ -30,7 +32,7 @@ std::string without_control_characters(const std::string& text) {
 }
 
 /// The last lines, for a message.
-std::string last_words(const std::string& messages) {
+std::string last_lines(const std::string& messages) {
   std::string text = messages;
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
   for (int lines = 0; lines < 2; ++lines) {
@@ -46,22 +48,22 @@ std::string last_words(const std::string& messages) {
 }
 
 /// Recognises the messages of the loader and the libraries when memory has run out.
-bool out_of_memory(const ChildEnd& end) {
+bool out_of_memory(const process::End& end) {
   for (const char* text :
        {"bad_alloc", "OutOfMemory", "annot allocate memory", "failed to map segment", "out of memory"})
-    if (end.messages.find(text) != std::string::npos) return true;
+    if (end.last_words.find(text) != std::string::npos) return true;
   return false;
 }
 
-std::string said(const ChildEnd& end) {
-  const std::string words = last_words(end.messages);
+std::string said(const process::End& end) {
+  const std::string words = last_lines(end.last_words);
   return words.empty() ? "" : fmt::format(" ({})", words);
 }
 
 /// Throws the errors of a failed read.
 class Failures {
  public:
-  Failures(const fs::path& file, const ReaderProgram& program, const ChildLimits& limits)
+  Failures(const fs::path& file, const ReaderProgram& program, const ReaderLimits& limits)
       : file_(file), program_(program), limits_(limits) {}
 
   void check_program() const {
@@ -70,22 +72,17 @@ class Failures {
                        program_.missing));
   }
 
-  void check(const ChildEnd& end, const StreamReader& stream) const {
-    switch (end.how) {
-      case ChildEnd::How::not_started:
-        fail(fmt::format("{} cannot be started: {}", program_.path.string(), std::strerror(end.code)));
-      case ChildEnd::How::timed_out:
-        fail(fmt::format("reading it took longer than {:g} s: raise {}.time_limit, or {}", limits_.seconds,
-                         program_.parameters, program_.instead));
-      case ChildEnd::How::crashed:
-        if (out_of_memory(end)) fail_for_memory();
-        fail(fmt::format("{} crashed on it (signal {}, {}): {}", program_.library, end.code, ::strsignal(end.code),
-                         program_.instead));
-      case ChildEnd::How::stopped:
-        fail(fmt::format("what the reader of {} sent cannot be used ({}): {}", program_.formats, stream.problem(),
-                         program_.instead));
-      case ChildEnd::How::exited:
-        break;
+  void check(const process::End& end, const StreamReader& stream) const {
+    if (end.out_of_wall || end.out_of_cpu)
+      fail(fmt::format("reading it took longer than {:g} s: raise {}.time_limit, or {}", limits_.seconds,
+                       program_.parameters, program_.instead));
+    if (end.stopped)
+      fail(fmt::format("what the reader of {} sent cannot be used ({}): {}", program_.formats, stream.problem(),
+                       program_.instead));
+    if (end.signal != 0) {
+      if (out_of_memory(end)) fail_for_memory();
+      fail(fmt::format("{} crashed on it (signal {}, {}): {}", program_.library, end.signal, ::strsignal(end.signal),
+                       program_.instead));
     }
     if (const auto& failure = stream.failure()) {
       if (failure->kind == Failure::out_of_memory) fail_for_memory();
@@ -95,12 +92,12 @@ class Failures {
                                                     program_.parameters, program_.coarser, program_.parameters));
       fail(fmt::format("{}{}", failure->text, said(end)));
     }
-    if (stream.complete() && end.code == 0) return;
+    if (stream.complete() && end.status == 0) return;
     if (out_of_memory(end)) fail_for_memory();
-    if (end.code == 127)
+    if (end.status == 127)
       fail(
           fmt::format("{} cannot be started{}: install {} again", program_.path.string(), said(end), program_.library));
-    fail(fmt::format("the reader of {} ended early (status {}){}: {}", program_.formats, end.code, said(end),
+    fail(fmt::format("the reader of {} ended early (status {}){}: {}", program_.formats, end.status, said(end),
                      program_.instead));
   }
 
@@ -117,7 +114,7 @@ class Failures {
 
   const fs::path& file_;
   const ReaderProgram& program_;
-  const ChildLimits& limits_;
+  const ReaderLimits& limits_;
 };
 
 }  // namespace
@@ -134,7 +131,7 @@ fs::path installed_reader(const std::string& name) {
 }
 
 std::vector<RawPart> read_in_child(const fs::path& file, const ReaderProgram& program,
-                                   const std::vector<std::string>& arguments, const ChildLimits& limits,
+                                   const std::vector<std::string>& arguments, const ReaderLimits& limits,
                                    std::uint64_t max_triangles, const RunContext& context) {
   const std::string name = file.filename().string();
   const Failures failures(file, program, limits);
@@ -142,11 +139,17 @@ std::vector<RawPart> read_in_child(const fs::path& file, const ReaderProgram& pr
   StreamReader stream(max_triangles, [&](const std::string& phase, std::size_t done, std::size_t total) {
     context.progress(phase, done, total, name);
   });
-  std::vector<std::string> all = {fs::absolute(file).string()};
-  all.insert(all.end(), arguments.begin(), arguments.end());
-  const ChildEnd end = run_child(
-      program.path, all, limits, [&] { return context.should_stop(); },
-      [&](std::span<const std::byte> bytes) { return stream.feed(bytes); });
+  process::Program reader;
+  reader.command = {program.path.string(), fs::absolute(file).string()};
+  reader.command.insert(reader.command.end(), arguments.begin(), arguments.end());
+  reader.limits = {.wall = limits.seconds, .cpu = limits.seconds > 0 ? limits.seconds + 1 : 0, .memory = limits.memory};
+  reader.output = [&](std::span<const std::byte> bytes) { return stream.feed(bytes); };
+  process::End end;
+  try {
+    end = process::run(reader, [&] { return context.should_stop(); });
+  } catch (const Error& e) {
+    throw InputError(file.string(), e.what());
+  }
   if (context.should_stop()) throw Error("stopped while reading " + file.string());
   failures.check(end, stream);
   for (const auto& warning : stream.warnings()) context.log(LogLevel::warning, fmt::format("{}: {}", name, warning));

@@ -6,10 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "child_process.h"
 #include "dismantle/importer.h"
 
 namespace dismantle::reader_process {
+
+struct ReaderLimits {
+  double seconds = 0;        ///< of wall-clock time and of CPU time; 0 = no limit
+  std::uint64_t memory = 0;  ///< bytes of address space; 0 = no limit
+};
 
 /// The program to start, and its texts in messages.
 struct ReaderProgram {
@@ -29,7 +33,7 @@ std::filesystem::path installed_reader(const std::string& name);
 /// Starts the program with the file and `arguments`, and reads its output (stream_format.h).
 /// @throws InputError with the file, the failure and the remedy. @throws Error when the context requests a stop.
 std::vector<RawPart> read_in_child(const std::filesystem::path& file, const ReaderProgram& program,
-                                   const std::vector<std::string>& arguments, const ChildLimits& limits,
+                                   const std::vector<std::string>& arguments, const ReaderLimits& limits,
                                    std::uint64_t max_triangles, const RunContext& context);
 
 }  // namespace dismantle::reader_process

@@ -46,8 +46,8 @@ std::vector<RawPart> MeshFiles::read_with_assimp(const std::filesystem::path& fi
                                               .missing = "install Dismantle again, or export the parts as OBJ or STL",
                                               .parameters = "importers.mesh_files",
                                               .coarser = ""};
-  const reader_process::ChildLimits limits{params_.time_limit,
-                                           static_cast<std::uint64_t>(params_.memory_limit * 1024 * 1024)};
+  const reader_process::ReaderLimits limits{params_.time_limit,
+                                            static_cast<std::uint64_t>(params_.memory_limit * 1024 * 1024)};
   std::vector<RawPart> parts =
       read_in_child(file, program, {}, limits, reader_process::kInputLimits.triangles, context);
   for (RawPart& part : parts) part.file = file.filename().string();

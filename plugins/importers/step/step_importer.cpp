@@ -91,8 +91,8 @@ std::vector<RawPart> StepImporter::read(const fs::path& file, const RunContext& 
   const std::vector<std::string> arguments = {
       fmt::format("{}", params_.linear_deflection), fmt::format("{}", params_.assembly_deflection),
       fmt::format("{}", params_.angular_deflection), fmt::format("{}", params_.triangle_limit)};
-  const reader_process::ChildLimits limits{params_.time_limit,
-                                           static_cast<std::uint64_t>(params_.memory_limit * 1024 * 1024)};
+  const reader_process::ReaderLimits limits{params_.time_limit,
+                                            static_cast<std::uint64_t>(params_.memory_limit * 1024 * 1024)};
   return read_in_child(file, program, arguments, limits, static_cast<std::uint64_t>(params_.triangle_limit), context);
 }
 

@@ -1,7 +1,6 @@
 #include "dismantle/bench/campaign.h"
 
 #include <fmt/format.h>
-#include <poll.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -97,10 +96,9 @@ class Campaign {
   }
 
   void wait() {
-    std::vector<pollfd> streams;
-    for (const auto& trial : running_)
-      if (trial->stream() >= 0) streams.push_back({trial->stream(), POLLIN, 0});
-    ::poll(streams.data(), streams.size(), 50);  // ms; the end of a process closes no stream that is waited for
+    std::vector<const process::Child*> children;
+    for (const auto& trial : running_) children.push_back(&trial->child());
+    process::Child::wait(children);
   }
 
   void take_ended() {

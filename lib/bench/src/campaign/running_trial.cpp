@@ -16,8 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Bytes. Keeps a planner that writes endlessly from filling the disk.
+constexpr std::uint64_t kLargestFile = 1 << 30;
+
 /// The outcome of a process that left no result. Names: docs/benchmark.md.
-std::string outcome_of(const ChildEnd& end) {
+std::string outcome_of(const process::End& end) {
   if (end.out_of_wall) return "wall_limit";
   if (end.out_of_cpu) return "cpu_limit";
   if (end.signal == SIGKILL) return "killed";
@@ -64,13 +67,14 @@ RunningTrial::~RunningTrial() {
 }
 
 void RunningTrial::start(const std::vector<std::string>& command) {
-  ChildSpec spec;
-  spec.command = command;
-  spec.command.push_back(folder_.string());
-  spec.wall = limits_.wall_limit();
-  spec.cpu = limits_.cpu_limit();
-  spec.memory = limits_.memory;
-  child_ = std::make_unique<Child>(spec);
+  process::Program program{.command = command,
+                           .limits = {.wall = limits_.wall_limit(),
+                                      .cpu = limits_.cpu_limit(),
+                                      .memory = static_cast<std::uint64_t>(limits_.memory) << 20,
+                                      .file_size = kLargestFile},
+                           .whole_tree = true};
+  program.command.push_back(folder_.string());
+  child_.emplace(program);
 }
 
 bool RunningTrial::ended() {
@@ -86,7 +90,7 @@ bool RunningTrial::ended() {
   return false;
 }
 
-void RunningTrial::take_plan(const ChildEnd& end) {
+void RunningTrial::take_plan(const process::End& end) {
   row_.signal = end.signal;
   row_.exit_status = end.status;
   row_.wall_seconds = end.wall_seconds;
@@ -136,7 +140,7 @@ void RunningTrial::take_result() {
   }
 }
 
-void RunningTrial::take_verification(const ChildEnd& end) {
+void RunningTrial::take_verification(const process::End& end) {
   row_.verify_seconds = end.wall_seconds;
   std::error_code error;
   const fs::path file = TrialFiles(folder_).verification;

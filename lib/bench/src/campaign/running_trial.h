@@ -1,11 +1,11 @@
 /// A running trial: first the process that plans, then the process that verifies.
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <string>
 
 #include "campaign/enlist.h"
-#include "process/child.h"
+#include "dismantle/process/child.h"
 
 namespace dismantle::bench {
 
@@ -19,23 +19,23 @@ class RunningTrial {
   RunningTrial& operator=(const RunningTrial&) = delete;
 
   std::size_t place() const { return place_; }
-  int stream() const { return child_->stream(); }
+  const process::Child& child() const { return *child_; }
   /// True when the trial has ended; row() is then complete.
   bool ended();
   const TrialRow& row() const { return row_; }
 
  private:
   void start(const std::vector<std::string>& command);
-  void take_plan(const ChildEnd& end);
+  void take_plan(const process::End& end);
   void take_result();
-  void take_verification(const ChildEnd& end);
+  void take_verification(const process::End& end);
 
   std::size_t place_;
   Limits limits_;
   const CampaignOptions& options_;
   std::filesystem::path folder_;
   bool one_part_, verifying_ = false, success_ = false;
-  std::unique_ptr<Child> child_;
+  std::optional<process::Child> child_;
   TrialRow row_;
 };
 

@@ -10,7 +10,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/write_file.h"
-#include "process/shell.h"
+#include "launch/shell.h"
 
 namespace dismantle::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/write_file.h"
-#include "process/shell.h"
+#include "launch/shell.h"
 #include "store/compress.h"
 #include "store/sqlite.h"
 

@@ -3,16 +3,12 @@
 
 #include <thread>
 
-#include "child_process.h"
 #include "scratch.h"
 #include "step_importer.h"
 
 namespace dismantle::step_import {
 namespace {
 
-using reader_process::ChildEnd;
-using reader_process::ChildLimits;
-using reader_process::run_child;
 using testing::input_error;
 using testing::Scratch;
 
@@ -108,20 +104,6 @@ TEST_F(StepChild, FilesThatAreNoWholeStepFilesAreRefusedUnread) {
   EXPECT_NE(input_error([&] { importer.read(scratch_ / "none.step", {}); }).find("cannot be opened"),
             std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "started"));
-}
-
-TEST_F(StepChild, ArgumentsArriveAsTheyAre) {
-  const auto program = scratch_.program("reader", "printf '%s|' \"$@\"\n");
-  std::string out;
-  const auto end = run_child(
-      program, {"a b", "$(touch x)", "'\"", ""}, {}, [] { return false; },
-      [&](auto bytes) {
-        out.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-        return true;
-      });
-  EXPECT_EQ(end.how, ChildEnd::How::exited);
-  EXPECT_EQ(end.code, 0);
-  EXPECT_EQ(out, "a b|$(touch x)|'\"||");
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace dismantle::bench {
+namespace dismantle::process {
 
 /// A variable NAME=VALUE that no other child has. All descendants of a child inherit it, including those that have left
 /// the process group by setsid() and have another parent by now.
@@ -12,4 +12,4 @@ std::string new_mark();
 /// Kills all processes of this user whose environment has the mark, until none is left.
 void kill_marked(const std::string& mark);
 
-}  // namespace dismantle::bench
+}  // namespace dismantle::process

@@ -1,4 +1,4 @@
-#include "process/leftovers.h"
+#include "leftovers.h"
 
 #include <fmt/format.h>
 #include <signal.h>
@@ -13,7 +13,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace dismantle::bench {
+namespace dismantle::process {
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,7 +53,7 @@ bool kill_once(const std::string& mark) {
 std::string new_mark() {
   static std::atomic<std::uint64_t> count{0};
   const auto begun = std::chrono::steady_clock::now().time_since_epoch().count();
-  return fmt::format("DISMANTLE_TRIAL={}.{}.{}", ::getpid(), begun, count++);
+  return fmt::format("DISMANTLE_PROCESS={}.{}.{}", ::getpid(), begun, count++);
 }
 
 void kill_marked(const std::string& mark) {
@@ -61,4 +61,4 @@ void kill_marked(const std::string& mark) {
   for (int round = 0; round < kMostRounds && kill_once(mark); ++round) ::usleep(1000);  // they take time to disappear
 }
 
-}  // namespace dismantle::bench
+}  // namespace dismantle::process
