@@ -1,12 +1,10 @@
 #include "dismantle/plan_file.h"
 
-#include <cerrno>
-#include <fstream>
-#include <sstream>
 #include <system_error>
 
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/plan_file.h"
+#include "dismantle/plan_io/read_file.h"
 
 namespace dismantle::app {
 
@@ -18,15 +16,9 @@ Plan read_plan(const std::filesystem::path& file) {
                                         ? "is a folder, not a plan file; did you mean " + inside.string() + "?"
                                         : "is a folder, not a plan file");
   }
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
-  if (!in.is_open() || in.bad() || text.bad())
-    throw InputError(file.string(),
-                     "cannot be read: " + std::generic_category().message(errno) +
-                         (errno == ENOENT ? "; 'dismantle plan INPUT -o DIR' writes DIR/plan.json" : ""));
-  return plan_from_json(text.str(), file.string());
+  if (!std::filesystem::exists(file, error))
+    throw InputError(file.string(), "cannot be read: no such file; 'dismantle plan INPUT -o DIR' writes DIR/plan.json");
+  return plan_from_json(read_file(file), file.string());
 }
 
 std::string source_of(const Plan& plan, const std::filesystem::path& file, const std::string& named) {

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
 
 #include "dismantle/errors.h"
 #include "dismantle/host/registry.h"
 #include "dismantle/host/suggest.h"
+#include "dismantle/plan_io/read_file.h"
 
 namespace dismantle::app {
 namespace {
@@ -83,13 +83,6 @@ class Renaming {
   std::vector<std::pair<std::string, std::string>> pairs_;
 };
 
-std::string content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(stream)), {});
-  if (!stream.is_open() || stream.bad()) throw Error(file.string() + ": cannot be read");
-  return text;
-}
-
 /// The id of the plugin in a template: "acme.in_turn" of the file acme_in_turn.cpp.
 std::string id_of_template(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -122,7 +115,7 @@ void copy(const fs::path& from, const fs::path& to, const Renaming& renamed, std
     }
     fs::create_directories((to / place).parent_path());
     std::ofstream out(to / place, std::ios::binary);
-    out << renamed(content(entry.path()));
+    out << renamed(read_file(entry.path()));
     out.close();
     if (!out) throw Error((to / place).string() + ": cannot be written");
     written.push_back(place.string());

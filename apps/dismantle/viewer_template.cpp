@@ -1,12 +1,10 @@
 #include "dismantle/viewer_template.h"
 
-#include <cerrno>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <system_error>
 
 #include "dismantle/errors.h"
+#include "dismantle/plan_io/read_file.h"
 
 namespace dismantle::app {
 
@@ -15,13 +13,9 @@ std::optional<std::string> viewer_template() {
   const fs::path file = fs::read_symlink("/proc/self/exe").parent_path() / DISMANTLE_VIEWER;
   std::error_code none;
   if (!fs::exists(file, none)) return std::nullopt;
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in.is_open() || in.bad() || !text || text.view().empty())
-    throw Error(file.lexically_normal().string() + " cannot be read: " + std::generic_category().message(errno));
-  return std::move(text).str();
+  std::string page = read_file(file.lexically_normal());
+  if (page.empty()) throw Error(file.lexically_normal().string() + " is empty");
+  return page;
 }
 
 }  // namespace dismantle::app

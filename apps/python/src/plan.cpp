@@ -4,17 +4,13 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include <cerrno>
-#include <fstream>
-#include <sstream>
-#include <system_error>
-
 #include "arrays.h"
 #include "bindings.h"
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/animation.h"
 #include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/plan_file.h"
+#include "dismantle/plan_io/read_file.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/write_file.h"
 #include "overlap.h"
@@ -22,15 +18,7 @@
 namespace dismantle::python {
 namespace {
 
-HeldPlan read(const std::filesystem::path& file) {
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
-  if (!in.is_open() || in.bad() || text.bad())
-    throw InputError(file.string(), "cannot be read: " + std::generic_category().message(errno));
-  return {plan_from_json(text.str(), file.string()), {}};
-}
+HeldPlan read(const std::filesystem::path& file) { return {plan_from_json(read_file(file), file.string()), {}}; }
 
 const char* word_of(PlanStatus status) {
   return status == PlanStatus::complete ? "complete" : status == PlanStatus::forced ? "forced" : "partial";

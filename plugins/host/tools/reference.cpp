@@ -2,10 +2,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <map>
 
 #include "dismantle/host/describe.h"
+#include "dismantle/plan_io/read_file.h"
 
 namespace fs = std::filesystem;
 
@@ -36,15 +36,10 @@ std::map<std::string, std::string> pages(const dismantle::Registry& registry) {
   return all;
 }
 
-std::string content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 int check(const std::map<std::string, std::string>& wanted, const fs::path& folder) {
   int differences = 0;
   for (const auto& [name, text] : wanted) {
-    if (content(folder / name) == text) continue;
+    if (fs::exists(folder / name) && dismantle::read_file(folder / name) == text) continue;
     ++differences;
     std::cerr << (folder / name).string() << " is out of date\n";
   }
