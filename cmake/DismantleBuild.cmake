@@ -137,14 +137,19 @@ function(dismantle_use_test_pch target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# dismantle_add_test(NAME SOURCES ... LIBRARIES ... [NEEDS FOLDER...] [USES FOLDER...]): a Google Test program, run as one
-# CTest test. It loads the plugins of these folders at run time. If one of NEEDS is missing, the test is left out with a
-# message; those of USES are optional.
+# What `./check --sanitize` builds, and runs as the CTest tests with the label `sanitized`, and with the thread sanitizer `threads`.
+add_custom_target(sanitized_tests)
+add_custom_target(threads_tests)
+
+# dismantle_add_test(NAME SOURCES ... LIBRARIES ... [NEEDS FOLDER...] [USES FOLDER...] [THREADS FILTER] [UNSANITIZED]): a Google Test
+# program, run as one CTest test. It loads the plugins of these folders at run time. If one of NEEDS is missing, the test is
+# left out with a message; those of USES are optional. THREADS: the tests that use threads, as a filter of Google Test; only
+# these run with the thread sanitizer. UNSANITIZED: a library of others is not clean under the sanitizers.
 function(dismantle_add_test name)
   if(NOT DISMANTLE_BUILD_TESTS)
     return()
   endif()
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;NEEDS;USES" ${ARGN})
+  cmake_parse_arguments(ARG "UNSANITIZED" "THREADS" "SOURCES;LIBRARIES;NEEDS;USES" ${ARGN})
   dismantle_left_out(missing ${name} ${ARG_NEEDS})
   if(missing)
     return()
@@ -155,7 +160,20 @@ function(dismantle_add_test name)
   dismantle_use_test_pch(${name})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
   dismantle_uses(${name} ${ARG_NEEDS} ${ARG_USES})
-  add_test(NAME ${name} COMMAND ${name})
+  set(filter "")
+  set(labels "")
+  if(ARG_THREADS)
+    list(APPEND labels threads)
+    add_dependencies(threads_tests ${name})
+    if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=thread")
+      set(filter "--gtest_filter=${ARG_THREADS}")
+    endif()
+  endif()
+  if(NOT ARG_UNSANITIZED)
+    list(APPEND labels sanitized)
+    add_dependencies(sanitized_tests ${name})
+  endif()
+  add_test(NAME ${name} COMMAND ${name} ${filter})
   set(limit 900)  # s, against hanging tests; sanitizers slow tests down up to twenty times
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
     set(limit 7200)
@@ -163,6 +181,6 @@ function(dismantle_add_test name)
   if("$ENV{DISMANTLE_TESTS}" STREQUAL "nightly")
     set(limit 86400)  # the nightly form has up to a thousand times as many trials
   endif()
-  set_tests_properties(${name} PROPERTIES TIMEOUT ${limit}
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${limit} LABELS "${labels}"
     ENVIRONMENT "DISMANTLE_PLUGIN_PATH=${DISMANTLE_PLUGIN_OUTPUT_DIRECTORY}")
 endfunction()
