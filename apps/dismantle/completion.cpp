@@ -86,7 +86,7 @@ std::string zsh_completion(const CommandNode& root) {
     for (const CommandOption& option : node->options) {
       std::string value;
       if (!option.choices.empty())
-        value = fmt::format(":{}:({})", option.value.substr(0, 0) + "value", fmt::join(option.choices, " "));
+        value = fmt::format(":value:({})", fmt::join(option.choices, " "));
       else if (!option.value.empty())
         value = fmt::format(":{}:_files", in_brackets(option.value));
       for (const std::string& name : option.names)
