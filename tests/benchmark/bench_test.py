@@ -2,7 +2,6 @@
 import glob
 import os
 import pathlib
-import random
 import re
 import shlex
 import signal
@@ -59,6 +58,16 @@ class Isolation(BenchTest):
         self.assertEqual((row["outcome"], row["verified"], row["solved"]), ("solved", 0, 0))
         self.assertIn("step 1", row["verification"])
 
+    def test_constraints_of_the_suite(self):
+        planner = "  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt, sequence_planner.type: progressive}}\n"
+        self.suite(planner, assemblies="  - {sample: stacked_box, set: {count: 2}}\n  - {sample: l_slot}\n",
+                   more="seeds: 1\nconstraints: {ignore: [lid, plate_2]}\n")
+        self.bench()
+        box, slot = self.rows()
+        self.assertEqual((box["parts"], box["solved"]), (2, 1), dict(box))
+        self.assertEqual(slot["outcome"], "bad_configuration")
+        self.assertIn("has no part 'lid'", slot["last_words"])
+
     def test_input_that_cannot_be_read_is_a_row(self):
         self.write("broken/a.obj", "no mesh\n")
         self.write("broken/b.obj", "v 0 0 0\n")
@@ -88,18 +97,23 @@ class Resuming(BenchTest):
 
     def test_kill_at_any_moment_costs_nothing_but_the_running_trials(self):
         self.suite(self.evil("none", "lie"), assemblies=self.ASSEMBLIES, more="seeds: 1..6\n")
+        def done():
+            if not os.path.exists(self.path("out/results.db")) or not self.rows("SELECT name FROM sqlite_master WHERE name = 'trials'"):
+                return 0
+            return len(self.rows("SELECT id FROM trials WHERE state = 'done'"))
+
         kept = 0
-        for _ in range(5):
+        for more in (0, 1, 2, 0, 3):  # it is killed when so many more trials are done, wherever it is then
             process = self.start("bench", "suite.yaml", "-o", self.path("out"), "--jobs", "2")
-            time.sleep(random.uniform(0.05, 0.8))
+            while done() < kept + more or not self.processes_here():
+                self.assertIsNone(process.poll(), "it ended by itself")
+                time.sleep(0.01)
             process.kill()
             process.communicate()
             while self.processes_here():  # its trials die with it
                 time.sleep(0.01)
-            if os.path.exists(self.path("out/results.db")) and self.rows("SELECT name FROM sqlite_master WHERE name = 'trials'"):
-                done = len(self.rows("SELECT id FROM trials WHERE state = 'done'"))
-                self.assertGreaterEqual(done, kept)
-                kept = done
+            self.assertGreaterEqual(done(), kept + more)
+            kept = done()
         self.assertEqual(self.bench("--jobs", "2", out=self.path("out"))["ran"], 24 - kept)
         self.assert_each_once(24)
         self.assertEqual(self.bench(out=self.path("out"))["ran"], 0)

@@ -1,5 +1,9 @@
-// Intervals and curves against values worked out by hand or taken from tables.
+// Intervals and curves against values worked out by hand or taken from tables; the columns of a trial.
 #include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
 
 #include "dismantle/bench/report.h"
 
@@ -47,6 +51,21 @@ TEST(SuccessOverTime, SolvedBeforeCensoredAtTheSameTime) {
   const auto steps = success_over_time({{5, false}, {5, true}}, 0);
   ASSERT_EQ(steps.size(), 1u);
   EXPECT_DOUBLE_EQ(steps[0].second, 0.5);
+}
+
+TEST(TrialColumns, EachIsInTheDocs) {
+  std::ifstream in(CONFIGS_FOLDER "/../docs/benchmark.md");
+  const std::string page(std::istreambuf_iterator<char>(in), {});
+  std::set<std::string> names;
+  for_columns(ReportRow{}, [&]<class T>(const std::string& name, const T&, const std::string& doc) {
+    EXPECT_TRUE(names.insert(name).second) << name;
+    const char* type = "0 or 1";
+    if (std::is_same_v<T, std::string>) type = "text";
+    if (std::is_same_v<T, std::int64_t> || std::is_same_v<T, std::optional<std::int64_t>>) type = "integer";
+    if (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>) type = "number";
+    const std::string line = "| `" + name + "` | " + type + " | " + doc + " |\n";
+    EXPECT_NE(page.find(line), std::string::npos) << "missing in docs/benchmark.md: " << line;
+  });
 }
 
 TEST(SuccessOverTime, NothingSolved) { EXPECT_TRUE(success_over_time({{5, false}}, 3).empty()); }

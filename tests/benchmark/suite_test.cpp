@@ -100,7 +100,7 @@ sedes: 2
 )");
   const std::vector<std::pair<std::string, std::string>> wanted = {
       {"3: ", "did you mean 'l_slot'?"}, {"4: ", "did you mean 'parts'?"},  {"5: ", "exactly one of glob, path"},
-      {"7: ", "did you mean 'turn'?"}, {"8: ", "did you mean 'config'?"}, {"10: ", "did you mean 'random'?"},
+      {"7: ", "did you mean 'turn'?"},   {"8: ", "did you mean 'config'?"}, {"10: ", "did you mean 'random'?"},
       {"10: ", "did you mean 'two'?"},   {"11: ", "seeds must be whole"},   {"12: ", "did you mean 'timeout'?"},
       {"13: ", "did you mean 'seeds'?"}};
   for (const auto& [line, text] : wanted) {
@@ -109,6 +109,44 @@ sedes: 2
     EXPECT_TRUE(there) << line << text << "\n" << testing::PrintToString(found);
   }
   EXPECT_EQ(found.size(), wanted.size()) << testing::PrintToString(found);
+}
+
+TEST_F(SuiteTest, ConstraintsAndImportersAreThoseOfTheSuite) {
+  const std::string sections = R"(constraints: {base: [frame], overlap: [{parts: [a, b], depth: 0.5}]}
+importers: {step: {linear_deflection: 0.005}}
+)";
+  const Suite suite = read_suite(write(kGood + sections));
+  for (const SuitePlanner& planner : suite.planners) {
+    EXPECT_EQ(planner.config.constraints.base, std::vector<std::string>{"frame"});
+    EXPECT_EQ(planner.config.constraints.overlap, (std::vector<NamedOverlap>{{"a", "b", 0.5}}));
+    EXPECT_EQ(planner.config.importers.at("step").at("linear_deflection"), ParamValue(0.005));
+  }
+  const auto wrong = problems(kGood + std::string("constraints: {bsae: [frame]}\n"));
+  ASSERT_EQ(wrong.size(), 1u) << testing::PrintToString(wrong);  // once, not once for each planner
+  EXPECT_TRUE(wrong[0].starts_with("13: ") && wrong[0].find("did you mean 'base'?") != std::string::npos) << wrong[0];
+}
+
+TEST_F(SuiteTest, APlannerHasNoConstraintsAndImportersOfItsOwn) {
+  const auto set = problems(R"(schema: 1
+assemblies: [{sample: l_slot}]
+planners:
+  one: {set: {constraints.base: [frame]}}
+  two: {set: {importers.step.linear_deflection: 0.005}}
+)");
+  ASSERT_EQ(set.size(), 2u) << testing::PrintToString(set);
+  EXPECT_TRUE(set[0].starts_with("4: ") && set[0].find("write 'constraints:' at its top level") != std::string::npos);
+  EXPECT_TRUE(set[1].starts_with("5: ") && set[1].find("write 'importers:' at its top level") != std::string::npos);
+  for (const char* section : {"constraints: {target: frame}", "importers: {step: {linear_deflection: 0.005}}"}) {
+    std::ofstream(folder_ / "planner.yaml") << "schema: 1\n" << section << "\n";
+    try {
+      read_suite(write("schema: 1\nassemblies: [{sample: l_slot}]\nplanners: {one: {config: planner.yaml}}\n"));
+      ADD_FAILURE() << "accepted: " << section;
+    } catch (const ConfigError& e) {
+      const std::string text = e.what();
+      EXPECT_NE(text.find("planner.yaml:2"), std::string::npos) << text;
+      EXPECT_NE(text.find("the suite has them for all"), std::string::npos) << text;
+    }
+  }
 }
 
 TEST_F(SuiteTest, WhatIsMissing) {

@@ -23,24 +23,16 @@ def bench(suite, output, jobs=1, on_progress=None):
 def read_results(*paths):
     """The trials of benchmark databases, each once: dict of column name to numpy array, all of the same length.
 
-    paths: databases, or folders with databases. Columns: assembly, variant, planner, category, part, outcome, host, version
-    (str); seed (int); solved (bool); verified (object: True, False or None); parts, removed, max_penetration (assembly units),
-    solve_seconds (float, nan where a trial has none); wall_seconds, cpu_seconds, peak_rss_mb, limit_timeout (s) (float); progress
-    (object: list of (seconds, parts out)). Raises InputError.
+    paths: databases, or folders with databases. Columns: those of the table `trials` (docs/benchmark.md): str, int, bool or float,
+    nan where a trial has no number; verified and complete: True, False or None; and progress: lists of (seconds, parts out).
+    Raises InputError.
     """
     columns = _core._read_results([os.fspath(p) for p in paths])
     out = {}
-    for name, values in columns.items():
-        if name == "progress" or name == "verified":
+    for name, (dtype, values) in columns.items():
+        if dtype == "object":
             out[name] = np.empty(len(values), dtype=object)
             out[name][:] = values
-        elif name in ("parts", "removed", "max_penetration", "solve_seconds", "wall_seconds", "cpu_seconds", "peak_rss_mb",
-                      "limit_timeout"):
-            out[name] = np.array([np.nan if v is None else v for v in values], dtype=float)
-        elif name == "seed":
-            out[name] = np.array(values, dtype=np.int64)
-        elif name == "solved":
-            out[name] = np.array(values, dtype=bool)
         else:
-            out[name] = np.array(values, dtype=str)
+            out[name] = np.array([np.nan if v is None else v for v in values], dtype=dtype)
     return out

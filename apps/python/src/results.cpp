@@ -12,7 +12,16 @@
 namespace dismantle::python {
 namespace {
 
-/// The results as one list per column; None where a trial has no value.
+/// The type of a column in numpy; float where a trial may have no number.
+template <class T>
+const char* dtype_of(const T&) {
+  if constexpr (std::is_same_v<T, std::string>) return "str";
+  if constexpr (std::is_same_v<T, bool>) return "bool";
+  if constexpr (std::is_same_v<T, std::int64_t>) return "int64";
+  return std::is_same_v<T, std::optional<bool>> ? "object" : "float";
+}
+
+/// By name of the column: type in numpy, and the values, None where a trial has none.
 py::dict read_results(const std::vector<std::filesystem::path>& paths) {
   bench::ReportData data;
   {
@@ -20,32 +29,18 @@ py::dict read_results(const std::vector<std::filesystem::path>& paths) {
     data = bench::read_results(paths);
   }
   py::dict out;
-  const auto column = [&](const char* name, auto get) {
-    py::list values;
-    for (const auto& row : data.rows) values.append(py::cast(get(row)));
-    out[name] = values;
+  std::vector<py::list> columns;
+  const auto add = [&](const char* name, const char* dtype) {
+    out[name] = py::make_tuple(dtype, columns.emplace_back());
   };
-  using Row = bench::ReportRow;
-  column("assembly", [](const Row& r) { return r.assembly; });
-  column("variant", [](const Row& r) { return r.variant; });
-  column("planner", [](const Row& r) { return r.planner; });
-  column("category", [](const Row& r) { return r.category; });
-  column("part", [](const Row& r) { return r.part; });
-  column("outcome", [](const Row& r) { return r.outcome; });
-  column("seed", [](const Row& r) { return r.seed; });
-  column("solved", [](const Row& r) { return r.solved; });
-  column("verified", [](const Row& r) { return r.verified; });
-  column("parts", [](const Row& r) { return r.parts; });
-  column("removed", [](const Row& r) { return r.removed; });
-  column("max_penetration", [](const Row& r) { return r.max_penetration; });
-  column("solve_seconds", [](const Row& r) { return r.solve_seconds; });
-  column("wall_seconds", [](const Row& r) { return r.wall_seconds; });
-  column("cpu_seconds", [](const Row& r) { return r.cpu_seconds; });
-  column("peak_rss_mb", [](const Row& r) { return r.peak_rss_mb; });
-  column("limit_timeout", [](const Row& r) { return r.limit_timeout; });
-  column("host", [](const Row& r) { return r.host; });
-  column("version", [](const Row& r) { return r.version; });
-  column("progress", [](const Row& r) { return r.progress; });
+  bench::for_columns(bench::ReportRow{},
+                     [&](const char* name, const auto& member, const char*) { add(name, dtype_of(member)); });
+  add("progress", "object");
+  for (const auto& row : data.rows) {
+    auto column = columns.begin();
+    bench::for_columns(row, [&](const char*, const auto& value, const char*) { (column++)->append(py::cast(value)); });
+    column->append(py::cast(row.progress));
+  }
   return out;
 }
 

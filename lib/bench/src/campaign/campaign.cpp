@@ -108,7 +108,7 @@ class Campaign {
         continue;
       }
       const RunningTrial& trial = *running_[i];
-      results_.finish(trial.place(), trial.row());
+      results_.finish(trial.place(), trial.record());
       ++ran_;
       tell(trial);
       running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(i));
@@ -122,10 +122,10 @@ class Campaign {
   }
 
   void tell(const RunningTrial& trial) {
-    const TrialKey& key = enlistment_.trials[trial.place()].plan.key;
-    const TrialRow& row = trial.row();
+    const TrialPlan& key = enlistment_.trials[trial.place()].plan;
+    const TrialResult& row = trial.record().result;
     count(key.planner, row.solved);
-    const std::string refused = row.verified.value_or(true) ? "" : " (refused by the verify)";
+    const std::string refused = row.verified.value_or(true) ? "" : " (refused by the verifier)";
     context_.log(LogLevel::info,
                  fmt::format("{}/{} {} on {}, {}, seed {}: {}{}, {:.1f} s", tally_.done, tally_.total, key.planner,
                              key.assembly, key.variant, key.seed, row.outcome, refused, row.wall_seconds));

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dismantle/errors.h"
+#include "dismantle/host/planning_setup.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/preparation/sha256.h"
@@ -78,9 +79,11 @@ std::string folder_name(const std::string& name, const std::string& recipe) {
 }
 
 /// The name of a generated assembly contains a hash of its inputs, so that it is never mistaken for another.
-std::string input_name(const SuiteAssembly& assembly, bool rotate, std::int64_t seed) {
+std::string input_name(const SuiteAssembly& assembly, const ImportParams& importers, bool rotate, std::int64_t seed) {
   std::string recipe = assembly.path.string() + "|" + assembly.sample;
   for (const auto& [key, value] : assembly.sample_values) recipe += "|" + key + "=" + to_text(value);
+  for (const auto& [importer, values] : importers)
+    for (const auto& [key, value] : values) recipe += fmt::format("|{}.{}={}", importer, key, to_text(value));
   return folder_name(assembly.name + (rotate ? fmt::format("_turned{}", seed) : ""), recipe);
 }
 
@@ -116,11 +119,23 @@ Enlistment enlist(const Suite& suite, const CampaignOptions& options) {
       out.configs.push_back({config.hash, text, plugins_of(seeded, *planner.registry, hashes)});
     }
     Enlisted trial;
-    trial.plan.key = {assembly.name, variant.name, planner.name, cell.seed};
-    trial.plan.category = assembly.category;
-    trial.plan.part = variant.part.empty() ? assembly.part : variant.part;
-    trial.plan.planner_hash = planner_hashes[cell.planner];
-    trial.plan.config_hash = config.hash;
+    const Limits& l = suite.limits;
+    trial.plan = {.assembly = assembly.name,
+                  .variant = variant.name,
+                  .planner = planner.name,
+                  .seed = cell.seed,
+                  .category = assembly.category,
+                  .part = variant.part.empty() ? assembly.part : variant.part,
+                  .planner_hash = planner_hashes[cell.planner],
+                  .config_hash = config.hash,
+                  .limit_path_timeout = l.path_timeout,
+                  .limit_path_steps = l.path_steps,
+                  .limit_timeout = l.timeout,
+                  .limit_wall = l.wall_limit(),
+                  .limit_cpu = l.cpu_limit(),
+                  .limit_memory_mb = l.memory,
+                  .threads = l.threads,
+                  .verify_max_penetration = suite.max_penetration};
     TrialRequest& r = trial.request;
     r.config = config.file;
     r.input = assembly.path;
@@ -130,7 +145,7 @@ Enlistment enlist(const Suite& suite, const CampaignOptions& options) {
     r.seed = cell.seed;
     r.part = trial.plan.part;
     r.inputs = fs::absolute(options.folder) / "inputs";
-    r.input_name = input_name(assembly, variant.rotate, cell.seed);
+    r.input_name = input_name(assembly, import_params_of(planner.config, *planner.registry), variant.rotate, cell.seed);
     r.max_penetration = suite.max_penetration;
     out.trials.push_back(std::move(trial));
   }

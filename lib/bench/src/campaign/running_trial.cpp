@@ -1,14 +1,13 @@
 #include "campaign/running_trial.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <signal.h>
 
-#include <ctime>
 #include <fstream>
 
 #include "dismantle/errors.h"
 #include "dismantle/outcome.h"
+#include "dismantle/plan_io/read_file.h"
 #include "trial/files.h"
 
 namespace dismantle::bench {
@@ -32,15 +31,11 @@ std::string outcome_of(const process::End& end) {
   return "no_result";
 }
 
-void read_progress(const fs::path& file, TrialRow& row) {
+void read_progress(const fs::path& file, TrialRecord& record) {
   std::ifstream in(file);
   double seconds = 0;
   std::int64_t removed = 0;
-  while (in >> seconds >> removed) row.progress.emplace_back(seconds, removed);
-}
-
-std::optional<double> count(const nlohmann::json& counts, const char* name) {
-  return counts.contains(name) ? std::optional(counts.at(name).get<double>()) : std::nullopt;
+  while (in >> seconds >> removed) record.progress.emplace_back(seconds, removed);
 }
 
 }  // namespace
@@ -56,7 +51,7 @@ RunningTrial::RunningTrial(std::size_t place, const Enlisted& trial, const Limit
   fs::create_directories(folder_);
   fs::create_directories(trial.request.inputs);
   write_request(trial.request, folder_);
-  row_.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  row_.started = utc_now();
   start(options.plan_command);
 }
 
@@ -84,59 +79,40 @@ bool RunningTrial::ended() {
     return true;
   }
   take_plan(child_->end());
-  if (row_.plan.empty()) return true;
+  if (record_.plan.empty()) return true;
   verifying_ = true;
   start(options_.verify_command);
   return false;
 }
 
 void RunningTrial::take_plan(const process::End& end) {
+  const TrialFiles files(folder_);
+  read_progress(files.progress, record_);
+  std::error_code error;
+  if (fs::is_regular_file(files.plan, error)) record_.plan = read_file(files.plan);
+  row_.outcome = outcome_of(end);
+  if (!record_.progress.empty()) row_.removed = record_.progress.back().second;
+  if (end.signal == 0 && end.status == 0 && fs::is_regular_file(files.result, error)) take_result();
+  // What is measured here, or by the verifier, is not what the planning process says of itself.
+  row_.solved = false;
+  row_.verified.reset();
+  row_.complete.reset();
   row_.signal = end.signal;
   row_.exit_status = end.status;
   row_.wall_seconds = end.wall_seconds;
   row_.cpu_seconds = end.cpu_seconds;
-  row_.peak_rss_mb = end.peak_rss_mb;
-  row_.last_words = end.last_words;
-  read_progress(TrialFiles(folder_).progress, row_);
-  std::error_code error;
-  if (fs::is_regular_file(TrialFiles(folder_).plan, error)) row_.plan = read_text(TrialFiles(folder_).plan);
-  row_.outcome = outcome_of(end);
-  if (!row_.progress.empty()) row_.removed = row_.progress.back().second;
-  if (end.signal == 0 && end.status == 0 && fs::is_regular_file(TrialFiles(folder_).result, error)) take_result();
+  if (row_.peak_rss_mb == 0) row_.peak_rss_mb = end.peak_rss_mb;
+  row_.last_words.insert(0, end.last_words);
 }
 
 void RunningTrial::take_result() {
   try {
-    const nlohmann::json r = read_json(TrialFiles(folder_).result);
-    row_.input = r.at("input").get<std::string>();
-    row_.input_sha256 = r.at("input_sha256").get<std::string>();
-    row_.parts = r.at("parts").get<std::int64_t>();
-    row_.excluded = r.at("excluded").get<std::int64_t>();
-    row_.left = r.at("left").get<std::int64_t>();
-    row_.removed = *row_.parts - *row_.left;
-    row_.steps = r.at("steps").get<std::int64_t>();
-    row_.load_seconds = r.at("load_seconds").get<double>();
-    row_.prepare_seconds = r.at("prepare_seconds").get<double>();
-    row_.plan_seconds = r.at("plan_seconds").get<double>();
-    row_.solve_seconds = r.at("solve_seconds").get<double>();
-    row_.proof_seconds = r.at("proof_seconds").get<double>();
-    row_.attempts = r.at("attempts").get<std::int64_t>();
-    row_.memoised = r.at("memoised").get<std::int64_t>();
-    const nlohmann::json& counts = r.at("counts");
-    row_.counts = counts.dump();
-    row_.simulated_steps = count(counts, "steps");
-    row_.nodes = count(counts, "nodes");
-    row_.collision_checks = count(counts, "state_checks");
-    if (const double peak = r.at("peak_rss_mb").get<double>(); peak > 0) row_.peak_rss_mb = peak;
-    row_.outcome = r.at("outcome").get<std::string>();
+    read_result(folder_, row_);
     const auto outcome = outcome_from_string(row_.outcome);
     success_ = outcome && is_success(*outcome);
-  } catch (const nlohmann::json::exception& e) {
+  } catch (const std::exception& e) {  // the file is damaged
     row_.outcome = "no_result";
-    row_.last_words += fmt::format("\nthe result of the trial cannot be read: {}\n", e.what());
-  } catch (const InputError& e) {
-    row_.outcome = "no_result";
-    row_.last_words += fmt::format("\n{}\n", e.what());
+    row_.last_words = fmt::format("\nthe result of the trial cannot be read: {}\n", e.what());
   }
 }
 

@@ -20,9 +20,9 @@ class RunningTrial {
 
   std::size_t place() const { return place_; }
   const process::Child& child() const { return *child_; }
-  /// True when the trial has ended; row() is then complete.
+  /// True when the trial has ended; record() is then complete.
   bool ended();
-  const TrialRow& row() const { return row_; }
+  const TrialRecord& record() const { return record_; }
 
  private:
   void start(const std::vector<std::string>& command);
@@ -36,7 +36,8 @@ class RunningTrial {
   std::filesystem::path folder_;
   bool one_part_, verifying_ = false, success_ = false;
   std::optional<process::Child> child_;
-  TrialRow row_;
+  TrialRecord record_;
+  TrialResult& row_ = record_.result;
 };
 
 }  // namespace dismantle::bench

@@ -9,21 +9,13 @@
 namespace dismantle::bench {
 namespace {
 
-/// The configuration of a row's trial, the time when it ended and the CPU.
-struct Origin {
-  std::string config, ended, cpu;
-};
-
-Origin origin_of(std::map<std::filesystem::path, std::unique_ptr<Sqlite>>& open, const ReportRow& row) {
+std::string config_of(std::map<std::filesystem::path, std::unique_ptr<Sqlite>>& open, const ReportRow& row) {
   auto& db = open[row.database];
   if (!db) db = std::make_unique<Sqlite>(row.database, Sqlite::Mode::read);
-  auto read = db->prepare(
-      "SELECT c.text, coalesce(t.ended, ''), coalesce(t.cpu_model, '') FROM trials t JOIN configs c ON c.hash = "
-      "t.config_hash "
-      "WHERE t.id = ?");
-  read.bind(row.id);
+  auto read = db->prepare("SELECT text FROM configs WHERE hash = ?");
+  read.bind(row.config_hash);
   if (!read.step()) throw InputError(row.database.string(), fmt::format("row {} has no configuration", row.id));
-  return {read.text(0), read.text(1), read.text(2)};
+  return read.text(0);
 }
 
 class Arena {
@@ -46,8 +38,8 @@ CREATE TABLE progress (runid INTEGER, time REAL, parts_out INTEGER, PRIMARY KEY 
 )");
   }
 
-  void add(const ReportRow& row, const Origin& origin) {
-    const std::int64_t run = add_run(row, experiment_of(row, origin), planner_of(row, origin));
+  void add(const ReportRow& row, const std::string& config) {
+    const std::int64_t run = add_run(row, experiment_of(row), planner_of(row, config));
     auto add = db_.prepare("INSERT OR REPLACE INTO progress VALUES (?, ?, ?)");
     for (const auto& [seconds, out] : row.progress) add.bind(run).bind(seconds).bind(out).done();
   }
@@ -61,7 +53,7 @@ CREATE TABLE progress (runid INTEGER, time REAL, parts_out INTEGER, PRIMARY KEY 
 
  private:
   /// An experiment of Planner Arena is one assembly in one variant.
-  std::int64_t experiment_of(const ReportRow& row, const Origin& origin) {
+  std::int64_t experiment_of(const ReportRow& row) {
     std::int64_t& id = experiments_[row.assembly + " " + row.variant];
     if (id != 0) return id;
     db_.prepare(
@@ -73,21 +65,18 @@ CREATE TABLE progress (runid INTEGER, time REAL, parts_out INTEGER, PRIMARY KEY 
         .bind(row.limit_memory_mb)
         .bind("dismantle " + row.version)
         .bind(row.host)
-        .bind(origin.cpu)
-        .bind(origin.ended)
+        .bind(row.cpu_model)
+        .bind(row.ended)
         .bind(row.seed)
         .bind(row.part.empty() ? "whole assembly" : "part " + row.part)
         .done();
     return id = db_.last_id();
   }
 
-  std::int64_t planner_of(const ReportRow& row, const Origin& origin) {
+  std::int64_t planner_of(const ReportRow& row, const std::string& config) {
     std::int64_t& id = planners_[row.planner];
     if (id != 0) return id;
-    db_.prepare("INSERT INTO plannerConfigs (name, settings) VALUES (?, ?)")
-        .bind(row.planner)
-        .bind(origin.config)
-        .done();
+    db_.prepare("INSERT INTO plannerConfigs (name, settings) VALUES (?, ?)").bind(row.planner).bind(config).done();
     return id = db_.last_id();
   }
 
@@ -128,7 +117,7 @@ void write_arena(const ReportData& data, const std::filesystem::path& file) {
   std::map<std::filesystem::path, std::unique_ptr<Sqlite>> open;
   Transaction transaction(db);
   Arena arena(db);
-  for (const auto& row : data.rows) arena.add(row, origin_of(open, row));
+  for (const auto& row : data.rows) arena.add(row, config_of(open, row));
   arena.finish();
   transaction.commit();
 }

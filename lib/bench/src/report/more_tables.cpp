@@ -196,22 +196,38 @@ Table trials_table(const ReportData& data, const std::string& plans) {
   table.id = "trials";
   table.title = "Trials";
   table.note = "`dismantle report DIR --row N -o FOLDER` writes the plan and the configuration of row N.";
-  table.columns = {"row",     "assembly", "category", "parts",    "planner", "variant",
-                   "seed",    "outcome",  "solved",   "verified", "deepest", "removed",
-                   "seconds", "wall s",   "cpu s",    "peak MiB", "signal",  "last words"};
   const auto maybe = [](const auto& value) { return value ? number(double(*value), "{:.6g}") : text(""); };
+  const auto yes_no = [](bool value) { return text(value ? "yes" : "no"); };
   std::size_t n = 0;
   for (const auto& r : data.rows) {
     std::string words = !r.verification.empty() && r.verified != true ? r.verification : r.last_words;
     while (!words.empty() && words.back() == '\n') words.pop_back();
     words = words.substr(words.rfind('\n') + 1);
-    const std::string verified = r.verified ? (*r.verified ? "yes" : "no") : "";
-    table.rows.push_back({whole(++n), text(r.assembly), text(r.category), maybe(r.parts), text(r.planner),
-                          text(r.variant), number(double(r.seed), "{:.0f}"), text(r.outcome),
-                          text(r.solved ? "yes" : "no"), text(verified), maybe(r.max_penetration), maybe(r.removed),
-                          maybe(r.solve_seconds), number(r.wall_seconds, "{:.3f}"), number(r.cpu_seconds, "{:.3f}"),
-                          number(r.peak_rss_mb, "{:.1f}"),
-                          r.signal != 0 ? number(double(r.signal), "{:.0f}") : text(""), text(words)});
+    const std::vector<std::pair<const char*, TableCell>> cells = {
+        {"row", whole(++n)},
+        {"assembly", text(r.assembly)},
+        {"category", text(r.category)},
+        {"parts", maybe(r.parts)},
+        {"planner", text(r.planner)},
+        {"variant", text(r.variant)},
+        {"seed", number(double(r.seed), "{:.0f}")},
+        {"outcome", text(r.outcome)},
+        {"solved", yes_no(r.solved)},
+        {"verified", r.verified ? yes_no(*r.verified) : text("")},
+        {"deepest", maybe(r.max_penetration)},
+        {"removed", maybe(r.removed)},
+        {"seconds", maybe(r.solve_seconds)},
+        {"wall s", number(r.wall_seconds, "{:.3f}")},
+        {"cpu s", number(r.cpu_seconds, "{:.3f}")},
+        {"peak MiB", number(r.peak_rss_mb, "{:.1f}")},
+        {"signal", r.signal != 0 ? number(double(r.signal), "{:.0f}") : text("")},
+        {"last words", text(words)}};
+    table.columns.clear();
+    table.rows.emplace_back();
+    for (const auto& [heading, cell] : cells) {
+      table.columns.push_back(heading);
+      table.rows.back().push_back(cell);
+    }
     if (!plans.empty() && r.has_plan) table.rows.back().front().link = fmt::format("{}/{}.json", plans, n);
   }
   return table;

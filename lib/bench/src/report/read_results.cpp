@@ -43,31 +43,16 @@ void append_new(std::vector<std::string>& list, const std::string& lines) {
   }
 }
 
-ReportRow row_of(const Statement& s, const fs::path& database) {
+/// `columns`: where each column of a row is, in the order of for_columns(); -1: not in this database.
+ReportRow row_of(const Statement& s, const std::vector<int>& columns, const fs::path& database) {
   ReportRow r;
   r.database = database;
-  r.id = s.integer(0);
-  std::string* const texts[] = {&r.assembly,     &r.variant,     &r.planner, &r.category, &r.part,   &r.outcome,
-                                &r.planner_hash, &r.config_hash, &r.host,    &r.version,  &r.counts, &r.input};
-  int column = 1;
-  for (std::string* text : texts) *text = s.text(column++);
-  r.seed = s.integer(13);
-  r.signal = s.integer(14);
-  r.solved = s.integer(15) != 0;
-  if (!s.is_null(16)) r.verified = s.integer(16) != 0;
-  r.max_penetration = s.maybe_number(17);
-  r.solve_seconds = s.maybe_number(18);
-  r.parts = s.maybe_integer(19);
-  r.removed = s.maybe_integer(20);
-  r.wall_seconds = s.number(21);
-  r.cpu_seconds = s.number(22);
-  r.peak_rss_mb = s.number(23);
-  r.limit_timeout = s.number(24);
-  r.limit_wall = s.number(25);
-  r.limit_memory_mb = s.integer(26);
-  r.last_words = s.text(27);
-  r.verification = s.text(28);
-  r.has_plan = s.integer(29) != 0;
+  s.get(0, r.id);
+  s.get(1, r.has_plan);
+  auto column = columns.begin();
+  for_columns(r, [&](const char*, auto& value, const char*) {
+    if (const int at = *column++; at >= 0) s.get(at, value);
+  });
   return r;
 }
 
@@ -88,16 +73,13 @@ class Merger {
     append_new(data_.variants, value("variants"));
     auto open = db.prepare("SELECT count(*) FROM trials WHERE state <> 'done'");
     if (open.step()) data_.missing += static_cast<std::size_t>(open.integer(0));
-    auto read = db.prepare(  // in the order of row_of()
-        "SELECT id, assembly, variant, planner, category, part, outcome, planner_hash, config_hash, host, version, "
-        "coalesce(counts, ''), coalesce(input, ''), seed, signal, solved, verified, max_penetration, solve_seconds, "
-        "parts, "
-        "removed, "
-        "wall_seconds, cpu_seconds, peak_rss_mb, limit_timeout, limit_wall, limit_memory_mb, coalesce(last_words, ''), "
-        "coalesce(verification, ''), id IN (SELECT trial FROM plans) FROM trials WHERE state = 'done' ORDER BY id");
+    auto read =
+        db.prepare("SELECT id, id IN (SELECT trial FROM plans), * FROM trials WHERE state = 'done' ORDER BY id");
+    std::vector<int> columns;
+    for_columns(ReportRow{}, [&](const char* name, const auto&, const char*) { columns.push_back(read.column(name)); });
     auto progress = db.prepare("SELECT seconds, removed FROM progress WHERE trial = ? ORDER BY seconds, removed");
     while (read.step()) {
-      ReportRow row = row_of(read, file);
+      ReportRow row = row_of(read, columns, file);
       check_same_planner(row);
       if (!seen_.insert({row.assembly, row.variant, row.planner, row.seed}).second) {
         ++twice_;

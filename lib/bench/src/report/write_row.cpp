@@ -15,30 +15,14 @@
 namespace dismantle::bench {
 namespace {
 
-/// All columns of the row.
-nlohmann::ordered_json json_of(Sqlite& db, std::int64_t id) {
-  sqlite3_stmt* statement = nullptr;
-  nlohmann::ordered_json out;
-  if (sqlite3_prepare_v2(db.handle(), "SELECT * FROM trials WHERE id = ?", -1, &statement, nullptr) != SQLITE_OK)
-    db.fail("is not a database of results");
-  sqlite3_bind_int64(statement, 1, id);
-  if (sqlite3_step(statement) == SQLITE_ROW)
-    for (int i = 0; i < sqlite3_column_count(statement); ++i) {
-      auto& value = out[sqlite3_column_name(statement, i)];
-      switch (sqlite3_column_type(statement, i)) {
-        case SQLITE_INTEGER:
-          value = sqlite3_column_int64(statement, i);
-          break;
-        case SQLITE_FLOAT:
-          value = sqlite3_column_double(statement, i);
-          break;
-        case SQLITE_NULL:
-          break;
-        default:
-          value = reinterpret_cast<const char*>(sqlite3_column_text(statement, i));
-      }
-    }
-  sqlite3_finalize(statement);
+nlohmann::ordered_json json_of(const ReportRow& row) {
+  nlohmann::ordered_json out = {{"id", row.id}};
+  for_columns(row, [&](const char* name, const auto& value, const char*) {
+    if constexpr (requires { *value; })
+      out[name] = value ? nlohmann::ordered_json(*value) : nullptr;
+    else
+      out[name] = value;
+  });
   return out;
 }
 
@@ -72,8 +56,7 @@ std::string write_row(const ReportRow& row, const std::filesystem::path& folder)
   if (!config.step()) throw InputError(row.database.string(), fmt::format("row {} has no configuration", row.id));
   write_file(folder / "config.yaml", config.text(0));
   if (row.has_plan) write_file(folder / "plan.json", plan_of(db, row.id));
-  const auto json = json_of(db, row.id);
-  write_file(folder / "row.json", json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  write_file(folder / "row.json", json_of(row).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   return fmt::format("dismantle plan {} -c {}{}", shell_quoted(row.input),
                      shell_quoted((folder / "config.yaml").string()),
                      row.part.empty() ? "" : " --part " + shell_quoted(row.part));

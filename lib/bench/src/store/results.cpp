@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <ctime>
 #include <map>
 
 #include "dismantle/errors.h"
@@ -30,13 +31,34 @@ void check_version(Sqlite& db) {
                                  version.text(0), kStoreVersion));
 }
 
+template <class T>
+constexpr const char* sql_type() {
+  if constexpr (std::is_same_v<T, std::string>) return "TEXT";
+  if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>) return "REAL";
+  return "INTEGER";
+}
+
+std::string tables() {
+  const ReportRow row;
+  std::string planned, results;
+  for_plan_columns(row, [&]<class T>(const char* name, const T&, const char*) {
+    planned += fmt::format("{} {} NOT NULL, ", name, sql_type<T>());
+  });
+  for_result_columns(row, [&]<class T>(const char* name, const T&, const char*) {
+    results += fmt::format("{} {}, ", name, sql_type<T>());
+  });
+  return fmt::format(kTables, planned, results);
+}
+
 }  // namespace
+
+std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
 Results::Results(const std::filesystem::path& file)
     : db_(file, Sqlite::Mode::write), host_(this_host()), cpu_(cpu_model()), owner_(this_owner()) {
   db_.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;");
   Transaction transaction(db_);
-  db_.run(kTables);
+  db_.run(tables());
   check_version(db_);
   transaction.commit();
   db_.run("CREATE TEMP TABLE wanted (place INTEGER PRIMARY KEY, id INTEGER NOT NULL)");
@@ -44,7 +66,6 @@ Results::Results(const std::filesystem::path& file)
 
 void Results::enlist(const Suite& suite, const std::vector<TrialPlan>& trials,
                      const std::vector<ConfigRecord>& configs) {
-  const Limits& l = suite.limits;
   Transaction transaction(db_);
   set(db_, "name", suite.name);
   set(db_, "text", suite.text);
@@ -68,38 +89,37 @@ void Results::enlist(const Suite& suite, const std::vector<TrialPlan>& trials,
           .bind(p.sha256)
           .done();
   }
-  auto add = db_.prepare(
-      "INSERT OR IGNORE INTO trials (assembly, variant, planner, seed, category, part, planner_hash, config_hash, "
-      "limit_path_timeout, limit_path_steps, limit_timeout, limit_wall, limit_cpu, limit_memory_mb, threads, "
-      "verify_max_penetration) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  std::string names, marks;
+  for_plan_columns(TrialPlan{}, [&](const char* name, const auto&, const char*) {
+    names += (names.empty() ? "" : ", ") + std::string(name);
+    marks += marks.empty() ? "?" : ", ?";
+  });
+  auto add = db_.prepare(fmt::format("INSERT OR IGNORE INTO trials ({}) VALUES ({})", names, marks));
+  auto find = db_.prepare(
+      fmt::format("SELECT id, {} FROM trials WHERE assembly = ? AND variant = ? AND planner = ? AND seed = ?", names));
   auto want = db_.prepare("INSERT INTO wanted VALUES (?, ?)");
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const TrialPlan& t = trials[i];
-    add.bind(t.key.assembly).bind(t.key.variant).bind(t.key.planner).bind(t.key.seed).bind(t.category).bind(t.part);
-    add.bind(t.planner_hash).bind(t.config_hash).bind(l.path_timeout).bind(l.path_steps).bind(l.timeout);
-    add.bind(l.wall_limit())
-        .bind(l.cpu_limit())
-        .bind(l.memory)
-        .bind(std::int64_t{l.threads})
-        .bind(suite.max_penetration)
-        .done();
-    auto find = db_.prepare(
-        "SELECT id, planner_hash, limit_wall, limit_cpu, limit_memory_mb, part, verify_max_penetration FROM trials "
-        "WHERE assembly = ? AND variant = ? AND planner = ? AND seed = ?");
-    find.bind(t.key.assembly).bind(t.key.variant).bind(t.key.planner).bind(t.key.seed).step();
-    const char* differs = find.text(1) != t.planner_hash            ? "its configuration or a plugin file"
-                          : find.number(2) != l.wall_limit()        ? "limits.wall"
-                          : find.number(3) != l.cpu_limit()         ? "limits.cpu"
-                          : find.integer(4) != l.memory             ? "limits.memory"
-                          : find.text(5) != t.part                  ? "the part"
-                          : find.number(6) != suite.max_penetration ? "verify.max_penetration"
-                                                                    : nullptr;
+    for_plan_columns(t, [&](const char*, const auto& value, const char*) { add.bind(value); });
+    add.done();
+    find.bind(t.assembly).bind(t.variant).bind(t.planner).bind(t.seed).step();
+    TrialPlan known;
+    int column = 1;
+    for_plan_columns(known, [&](const char*, auto& value, const char*) { find.get(column++, value); });
+    const char* differs = known.planner_hash != t.planner_hash         ? "its configuration or a plugin file"
+                          : known.limit_wall != t.limit_wall           ? "limits.wall"
+                          : known.limit_cpu != t.limit_cpu             ? "limits.cpu"
+                          : known.limit_memory_mb != t.limit_memory_mb ? "limits.memory"
+                          : known.part != t.part                       ? "the part"
+                          : known.verify_max_penetration != t.verify_max_penetration ? "verify.max_penetration"
+                                                                                     : nullptr;
     if (differs != nullptr)
       throw Error(
           fmt::format("{}: planner '{}' on '{}' (seed {}) has a row already that was made with something else: "
                       "{} differs. Rows are not mixed: use another folder (-o), or delete this one",
-                      db_.name(), t.key.planner, t.key.assembly, t.key.seed, differs));
+                      db_.name(), t.planner, t.assembly, t.seed, differs));
     ids_.push_back(find.integer(0));
+    find.done();
     want.bind(static_cast<std::int64_t>(i)).bind(ids_.back()).done();
   }
   transaction.commit();
@@ -165,42 +185,32 @@ void Results::release(std::size_t trial) {
       .done();
 }
 
-void Results::finish(std::size_t trial, const TrialRow& row) {
+void Results::finish(std::size_t trial, TrialRecord record) {
   const std::int64_t id = ids_.at(trial);
+  TrialResult& result = record.result;
+  result.host = host_.substr(0, host_.find(' '));
+  result.cpu_model = cpu_;
+  result.version = DISMANTLE_VERSION;
+  result.ended = utc_now();
+  std::string columns;
+  for_result_columns(result,
+                     [&](const char* name, const auto&, const char*) { columns += fmt::format(", {} = ?", name); });
   Transaction transaction(db_);
-  auto update = db_.prepare(
-      "UPDATE trials SET state = 'done', owner = NULL, owner_host = NULL, lease_until = NULL, outcome = ?, solved = ?, "
-      "verified = ?, complete = ?, max_penetration = ?, verification = ?, signal = ?, exit_status = ?, last_words = ?, "
-      "input = ?, "
-      "input_sha256 = ?, parts = ?, excluded = ?, removed = ?, left_together = ?, steps = ?, wall_seconds = ?, "
-      "cpu_seconds = ?, "
-      "peak_rss_mb = ?, load_seconds = ?, prepare_seconds = ?, plan_seconds = ?, solve_seconds = ?, "
-      "proof_seconds = ?, verify_seconds = ?, "
-      "attempts = ?, memoised = ?, simulated_steps = ?, nodes = ?, collision_checks = ?, counts = ?, host = ?, "
-      "cpu_model = ?, "
-      "version = ?, started = ?, ended = strftime('%Y-%m-%dT%H:%M:%SZ', 'now') WHERE id = ? AND state = 'running' AND "
-      "owner = ?");
-  update.bind(row.outcome).bind(row.solved).bind(row.verified).bind(row.complete).bind(row.max_penetration);
-  update.bind(row.verification).bind(row.signal).bind(row.exit_status).bind(row.last_words).bind(row.input);
-  update.bind(row.input_sha256).bind(row.parts).bind(row.excluded).bind(row.removed).bind(row.left).bind(row.steps);
-  update.bind(row.wall_seconds).bind(row.cpu_seconds).bind(row.peak_rss_mb).bind(row.load_seconds);
-  update.bind(row.prepare_seconds)
-      .bind(row.plan_seconds)
-      .bind(row.solve_seconds)
-      .bind(row.proof_seconds)
-      .bind(row.verify_seconds);
-  update.bind(row.attempts).bind(row.memoised).bind(row.simulated_steps).bind(row.nodes).bind(row.collision_checks);
-  update.bind(row.counts).bind(host_.substr(0, host_.find(' '))).bind(cpu_).bind(DISMANTLE_VERSION).bind(row.started);
+  auto update = db_.prepare(fmt::format(
+      "UPDATE trials SET state = 'done', owner = NULL, owner_host = NULL, lease_until = NULL{} WHERE id = ? AND "
+      "state = 'running' AND owner = ?",
+      columns));
+  for_result_columns(result, [&](const char*, const auto& value, const char*) { update.bind(value); });
   update.bind(id).bind(owner_).done();
   if (db_.changes() == 0) return;  // the lease expired: another machine has claimed the trial, and its row counts
-  if (!row.plan.empty())
+  if (!record.plan.empty())
     db_.prepare("INSERT INTO plans VALUES (?, 'zlib', ?, ?)")
         .bind(id)
-        .bind(static_cast<std::int64_t>(row.plan.size()))
-        .blob(compressed(row.plan))
+        .bind(static_cast<std::int64_t>(record.plan.size()))
+        .blob(compressed(record.plan))
         .done();
   auto add = db_.prepare("INSERT INTO progress VALUES (?, ?, ?)");
-  for (const auto& [seconds, removed] : row.progress) add.bind(id).bind(seconds).bind(removed).done();
+  for (const auto& [seconds, removed] : record.progress) add.bind(id).bind(seconds).bind(removed).done();
   transaction.commit();
 }
 

@@ -7,23 +7,10 @@
 #include <vector>
 
 #include "dismantle/bench/suite.h"
+#include "dismantle/bench/trial_row.h"
 #include "store/sqlite.h"
 
 namespace dismantle::bench {
-
-/// The unique key of a row in a database.
-struct TrialKey {
-  std::string assembly, variant, planner;
-  std::int64_t seed = 0;
-};
-
-/// The columns that are known before a trial runs.
-struct TrialPlan {
-  TrialKey key;
-  std::string category, part;
-  std::string planner_hash;  ///< of the configuration without seed and folders: rows with another hash are not reused
-  std::string config_hash;   ///< of the complete configuration
-};
 
 struct PluginUse {
   std::string section, type, plugin, version, file, sha256;
@@ -34,23 +21,9 @@ struct ConfigRecord {
   std::vector<PluginUse> plugins;
 };
 
-/// The results of a trial. Empty optionals: unknown, because the trial ended earlier.
-struct TrialRow {
-  std::string outcome;  ///< docs/benchmark.md
-  bool solved = false;  ///< the planner reports success and the verifier accepts the plan
-  std::optional<bool> verified, complete;
-  std::optional<double> max_penetration;
-  std::string verification;  ///< the verifier's objections, or why there is no verification
-  std::int64_t signal = 0, exit_status = 0;
-  std::string last_words;
-  std::string input, input_sha256;
-  std::optional<std::int64_t> parts, excluded, removed, left, steps;
-  double wall_seconds = 0, cpu_seconds = 0, peak_rss_mb = 0;
-  std::optional<double> load_seconds, prepare_seconds, plan_seconds, solve_seconds, proof_seconds, verify_seconds;
-  std::optional<std::int64_t> attempts, memoised;
-  std::optional<double> simulated_steps, nodes, collision_checks;
-  std::string counts;  ///< all counts of the planner, JSON
-  std::string started;
+/// What a trial leaves for the database.
+struct TrialRecord {
+  TrialResult result;
   std::string plan;                                       ///< JSON text; empty: there is none
   std::vector<std::pair<double, std::int64_t>> progress;  ///< seconds, parts removed
 };
@@ -60,6 +33,9 @@ struct Tally {
   double seconds = 0;  ///< wall time of the finished trials
   std::vector<std::pair<std::string, std::pair<std::int64_t, std::int64_t>>> planners;  ///< name, (solved, done)
 };
+
+/// Now, as in the columns `started` and `ended`.
+std::string utc_now();
 
 /// A suite's results, open for writing. Several processes may have them open simultaneously.
 class Results {
@@ -76,8 +52,8 @@ class Results {
   void renew(std::size_t trial);
   /// Releases a claimed trial, so that it waits again.
   void release(std::size_t trial);
-  /// Writes the row, its plan and its progress in one transaction.
-  void finish(std::size_t trial, const TrialRow& row);
+  /// Writes the result, the plan and the progress of a trial in one transaction.
+  void finish(std::size_t trial, TrialRecord record);
   /// Counts the trials that were enlisted.
   Tally tally();
 

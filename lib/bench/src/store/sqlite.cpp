@@ -85,11 +85,10 @@ std::string Statement::text(int column) const {
   return bytes == nullptr ? std::string()
                           : std::string(bytes, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column)));
 }
-std::optional<std::int64_t> Statement::maybe_integer(int column) const {
-  return is_null(column) ? std::nullopt : std::optional(integer(column));
-}
-std::optional<double> Statement::maybe_number(int column) const {
-  return is_null(column) ? std::nullopt : std::optional(number(column));
+int Statement::column(std::string_view name) const {
+  for (int i = 0; i < sqlite3_column_count(statement_); ++i)
+    if (name == sqlite3_column_name(statement_, i)) return i;
+  return -1;
 }
 
 Transaction::~Transaction() {

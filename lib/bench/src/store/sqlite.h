@@ -68,8 +68,18 @@ class Statement {
   std::int64_t integer(int column) const { return sqlite3_column_int64(statement_, column); }
   double number(int column) const { return sqlite3_column_double(statement_, column); }
   std::string text(int column) const;
-  std::optional<std::int64_t> maybe_integer(int column) const;
-  std::optional<double> maybe_number(int column) const;
+  /// The value of a column, by the type of `out`.
+  void get(int column, std::string& out) const { out = text(column); }
+  void get(int column, double& out) const { out = number(column); }
+  void get(int column, std::int64_t& out) const { out = integer(column); }
+  void get(int column, bool& out) const { out = integer(column) != 0; }
+  template <class T>
+  void get(int column, std::optional<T>& out) const {
+    out.reset();
+    if (!is_null(column)) get(column, out.emplace());
+  }
+  /// The number of the column of this name; -1: there is none.
+  int column(std::string_view name) const;
 
  private:
   void check(int status, const char* doing);

@@ -1,14 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "dismantle/bench/suite.h"
 #include "dismantle/host/config_bind.h"
+#include "dismantle/host/planning_setup.h"
 #include "dismantle/host/suggest.h"
+#include "dismantle/plan_io/read_file.h"
 #include "suite/assemblies.h"
 
 namespace dismantle::bench {
@@ -18,6 +19,9 @@ namespace fs = std::filesystem;
 
 /// Limit of one range: more seeds are probably a typing error and would use much memory.
 constexpr std::size_t kMaxSeeds = 100000;
+
+/// Sections of configurations that a suite has for all its planners.
+constexpr std::array<std::string_view, 2> kForAll = {"constraints", "importers"};
 
 /// `rotate:` of a variant.
 enum class Rotate { none, random };
@@ -88,10 +92,7 @@ class Reader {
       problems_.push_back(root.mark.error(fmt::format("a suite must be a map of keys, not {}", root.kind_name())));
       throw ConfigError(problems_);
     }
-    std::ifstream in(suite_.file, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    suite_.text = text.str();
+    suite_.text = read_file(suite_.file);
     take_schema(root, problems_);
     root_ = &root;
     check_keys();
@@ -122,8 +123,9 @@ class Reader {
   }
 
   void check_keys() {
-    const std::vector<std::string> known = {"schema", "name",   "assemblies",     "planners", "seeds",
-                                            "limits", "verify", "assembly_steps", "variants"};
+    std::vector<std::string> known = {"schema", "name",   "assemblies",     "planners", "seeds",
+                                      "limits", "verify", "assembly_steps", "variants"};
+    known.insert(known.end(), kForAll.begin(), kForAll.end());
     for (const auto& member : root_->members)
       if (std::find(known.begin(), known.end(), member.key) == known.end())
         problems_.push_back(member.key_mark.error(unknown_key_message(member.key, {"", "", ""}, known, {})));
@@ -206,6 +208,10 @@ class Reader {
         source.file = (suite_.file.parent_path() / value.scalar).lexically_normal();
       } else if (key == "set" && value.is_map()) {
         for (const auto& item : value.members) {
+          if (const auto section = item.key.substr(0, item.key.find('.')); std::ranges::count(kForAll, section) > 0) {
+            fail(item.key_mark, belongs_to_the_suite(section));
+            continue;
+          }
           if (item.value.is_map()) {
             fail(item.value.mark, "keys of set are written with dots, as in path_planner.goal_bias: 0.1");
             continue;
@@ -237,9 +243,16 @@ class Reader {
     option("assembly_steps", "layout.enabled", assembly_steps_);
     SuitePlanner planner;
     planner.name = name;
-    planner.registry = std::make_shared<Registry>();
-    try {
+    const auto load = [&] {
+      planner.registry = std::make_shared<Registry>();
       planner.config = load_config(source, *planner.registry);
+    };
+    try {
+      load();
+      if (!check_own_sections(planner)) return;
+      for (const auto section : kForAll)
+        if (const auto* member = root_->find(std::string(section))) source.sections.push_back(*member);
+      if (!source.sections.empty()) load();
     } catch (const ConfigError& e) {
       for (Diagnostic d : e.diagnostics()) {
         // Errors in `set` refer to this file. Errors without a place refer to the planner's entry.
@@ -248,11 +261,35 @@ class Reader {
                                  : d.file.empty() || d.file.starts_with('<')             ? &name_mark
                                                                                          : nullptr;
         if (mark != nullptr) d = mark->error(fmt::format("planners.{}: {}", name, d.message));
-        problems_.push_back(std::move(d));
+        // What is wrong with a section of the suite is found with each planner.
+        const auto same = [&](const Diagnostic& known) { return known.text() == d.text(); };
+        if (std::ranges::none_of(problems_, same)) problems_.push_back(std::move(d));
       }
       return;
     }
     suite_.planners.push_back(std::move(planner));
+  }
+
+  static std::string belongs_to_the_suite(std::string_view section) {
+    return fmt::format(
+        "{} of one planner would make the trials of the others another task; the suite has them for all: "
+        "write '{}:' at its top level",
+        section, section);
+  }
+
+  /// False if the planner's file has sections that belong to the suite.
+  bool check_own_sections(const SuitePlanner& planner) {
+    std::vector<Diagnostic> found;
+    for (const auto& name : planner.config.constraint_names) found.push_back(name.place);
+    const bool constrained = !found.empty();
+    for (const auto& [importer, values] : import_params_of(planner.config, *planner.registry))
+      for (const auto& [key, value] : values)
+        found.push_back({planner.config.origins.at(fmt::format("importers.{}.{}", importer, key)), 0, 0, ""});
+    if (found.empty()) return true;
+    found.front().message =
+        fmt::format("planners.{}: {}", planner.name, belongs_to_the_suite(constrained ? "constraints" : "importers"));
+    problems_.push_back(found.front());
+    return false;
   }
 
   void read_variants() {

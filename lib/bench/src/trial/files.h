@@ -7,15 +7,20 @@
 #include <vector>
 
 #include "dismantle/bench/trial.h"
+#include "dismantle/bench/trial_row.h"
 #include "dismantle/importer.h"
 #include "dismantle/run_context.h"
 
 namespace dismantle::bench {
 
-/// @throws Error naming the file.
-std::string read_text(const std::filesystem::path& file);
+/// @throws InputError naming the file.
 nlohmann::json read_json(const std::filesystem::path& file);
 TrialRequest read_request(const std::filesystem::path& folder);
+
+/// Writes the columns that are set.
+void write_result(const TrialResult& result, const std::filesystem::path& folder);
+/// Sets the columns that the planning process has written. @throws InputError, nlohmann::json::exception.
+void read_result(const std::filesystem::path& folder, TrialResult& result);
 
 /// The path of the trial's assembly. A generated one (a sample, a rotated one, one with a `translation.json`) is made
 /// once and kept; several processes may do so concurrently. @throws InputError.

@@ -11,8 +11,10 @@
 #include "dismantle/host/planning_setup.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/plan_file.h"
+#include "dismantle/plan_io/read_file.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/preparation/assembly_of_plan.h"
+#include "dismantle/preparation/flexible_parts.h"
 #include "dismantle/preparation/prepare.h"
 #include "dismantle/preparation/read_input.h"
 #include "dismantle/verification/check_plan.h"
@@ -41,7 +43,7 @@ double peak_memory() {
   return 0;
 }
 
-/// Warnings and errors go to standard error, from where they become TrialRow::last_words.
+/// Warnings and errors go to standard error, from where they become TrialResult::last_words.
 RunContext context_of_trial() {
   RunContext context;
   context.on_log = [](LogLevel level, std::string_view text) {
@@ -96,14 +98,23 @@ void plan_trial(const fs::path& folder) {
   config.run.force = ForceWhen::off;  // forced steps would hide what a planner does not find
   RunContext context = context_of_trial();
   context.threads = std::max(1u, config.run.threads);
-  const auto importers = importers_of(registry);
+  const ImportParams import_params = import_params_of(config, registry);
+  const auto importers = importers_of(registry, import_params);
   const fs::path input = input_of(request, importers, context);
   ReadOptions read;
   read.max_triangles = config.assembly.max_triangles;
   InputParts parts = read_input(input, importers, read, context);
+  std::vector<std::string> names;
+  for (const auto& part : parts.parts) names.push_back(part.name);
+  check_constraint_names(config, names, input.string());
+  std::erase_if(parts.parts,
+                [&](const auto& part) { return std::ranges::count(config.constraints.ignore, part.name) > 0; });
   PrepareReport report;
-  const Assembly assembly =
+  Assembly assembly =
       prepare_assembly(std::move(parts.parts), input.string(), parts.sha256, config.assembly, context, report);
+  assembly.import_params = import_params;
+  declare_overlaps(config.constraints, assembly);
+  report.flexible = with_declared(std::move(report.flexible), config.constraints.flexible, assembly);
   const PlanningSetup setup = planning_setup_of(config, registry);
   const double load_seconds = seconds_since(start);
 
@@ -111,40 +122,52 @@ void plan_trial(const fs::path& folder) {
   if (config.run.timeout > 0) context.deadline = Deadline::after_seconds(config.run.timeout);
   RunOptions options = run_options_of(config, request.part);
   options.flexible = report.flexible;
+  options.constraints = constraints_of(config.constraints, assembly);
+  if (!options.constraints.empty() && request.part.empty() && !setup.sequence_planner->keeps_constraints())
+    throw Error(fmt::format("the suite has constraints, and sequence planner '{}' does not keep any",
+                            config.sequence_planner.type));
   Recorder recorder(folder, assembly, options);
   const RunResult result = run(assembly, setup, options, context, std::ref(recorder));
   const double solve_seconds = seconds_since(begin);
   write_file(TrialFiles(folder).plan, to_json(result.plan));
   fmt::print(stderr, "{}", reasons_of(result.plan));
-  const nlohmann::json json = {{"outcome", to_string(result.outcome)},
-                               {"input", input.string()},
-                               {"input_sha256", assembly.sha256},
-                               {"parts", assembly.parts.size()},
-                               {"excluded", assembly.excluded.size()},
-                               {"left", result.plan.remaining.size()},
-                               {"steps", result.plan.disassembly.size()},
-                               {"load_seconds", load_seconds},
-                               {"prepare_seconds", result.prepare_seconds},
-                               {"plan_seconds", result.plan_seconds},
-                               {"solve_seconds", solve_seconds},
-                               {"proof_seconds", result.proof_seconds},
-                               {"attempts", result.counts.attempts},
-                               {"memoised", result.counts.memoised},
-                               {"proposed", result.counts.proposed},
-                               {"counts", result.planner_counts},
-                               {"peak_rss_mb", peak_memory()}};
-  write_file(TrialFiles(folder).result, json.dump(1) + "\n");
+  const auto count = [&](const char* name) {
+    const auto found = result.planner_counts.find(name);
+    return found == result.planner_counts.end() ? std::nullopt : std::optional<double>(found->second);
+  };
+  TrialResult row;
+  row.outcome = to_string(result.outcome);
+  row.input = input.string();
+  row.input_sha256 = assembly.sha256;
+  row.parts = assembly.parts.size();
+  row.excluded = assembly.excluded.size();
+  row.left_together = result.plan.remaining.size();
+  row.removed = *row.parts - *row.left_together;
+  row.steps = result.plan.disassembly.size();
+  row.load_seconds = load_seconds;
+  row.prepare_seconds = result.prepare_seconds;
+  row.plan_seconds = result.plan_seconds;
+  row.solve_seconds = solve_seconds;
+  row.proof_seconds = result.proof_seconds;
+  row.attempts = result.counts.attempts;
+  row.memoised = result.counts.memoised;
+  row.counts = nlohmann::json(result.planner_counts).dump();
+  row.simulated_steps = count("steps");
+  row.nodes = count("nodes");
+  row.collision_checks = count("state_checks");
+  row.peak_rss_mb = peak_memory();
+  write_result(row, folder);
 }
 
 void verify_trial(const fs::path& folder) {
   std::set_new_handler(end_without_memory);
   const TrialRequest request = read_request(folder);
   const fs::path file = TrialFiles(folder).plan;
-  const Plan plan = plan_from_json(read_text(file), file.string());
+  const Plan plan = plan_from_json(read_file(file), file.string());
   Registry registry;
   registry.scan();
   RunContext context = context_of_trial();
-  const auto importers = importers_of(registry);
+  const auto importers = importers_of(registry, plan.assembly.import_params);
   const fs::path input = input_of(request, importers, context);
   ReadOptions read;
   read.max_triangles = std::numeric_limits<std::int64_t>::max();

@@ -252,6 +252,10 @@ ConfigNode merged_tree(const ConfigSource& source, std::vector<Diagnostic>& prob
   for (std::size_t i = 0; i < source.set.size(); ++i) overrides.set(source.set[i], static_cast<int>(i) + 1);
   for (const auto& option : source.options) overrides.option(option);
   merge_config(root, overrides.take(), problems);
+  ConfigNode sections;
+  sections.kind = ConfigNode::Kind::map;
+  sections.members = source.sections;
+  merge_config(root, std::move(sections), problems);
   return root;
 }
 

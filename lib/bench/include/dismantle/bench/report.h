@@ -8,26 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "dismantle/bench/trial_row.h"
 #include "dismantle/export.h"
 
 namespace dismantle::bench {
-
-/// The columns of a finished trial that reports use. Times in seconds.
-struct ReportRow {
-  std::filesystem::path database;
-  std::int64_t id = 0;  ///< of the row in `database`
-  std::string assembly, variant, planner, category, part, outcome, planner_hash, config_hash, host, version, counts,
-      input, last_words, verification;
-  std::int64_t seed = 0, signal = 0;
-  bool solved = false;
-  std::optional<bool> verified;
-  std::optional<double> max_penetration, solve_seconds;
-  std::optional<std::int64_t> parts, removed;
-  bool has_plan = false;
-  double wall_seconds = 0, cpu_seconds = 0, peak_rss_mb = 0, limit_timeout = 0, limit_wall = 0;
-  std::int64_t limit_memory_mb = 0;
-  std::vector<std::pair<double, std::int64_t>> progress;  ///< seconds, parts removed
-};
 
 /// All rows of any number of databases, each trial once. Their order does not depend on which database held them.
 struct ReportData {

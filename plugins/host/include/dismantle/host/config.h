@@ -13,6 +13,7 @@
 #include "dismantle/engine/layout.h"
 #include "dismantle/engine/proof_options.h"
 #include "dismantle/export.h"
+#include "dismantle/host/config_node.h"
 #include "dismantle/host/registry.h"
 #include "dismantle/parameters.h"
 #include "dismantle/path_oracle.h"
@@ -106,6 +107,7 @@ struct ConfigSource {
   std::optional<std::filesystem::path> file;  ///< none: defaults only
   std::vector<std::string> set;               ///< "path_planner.goal_bias=0.1"; the value is YAML
   std::vector<ConfigOption> options;          ///< values are taken literally
+  std::vector<ConfigMember> sections{};       ///< of another file, such as a suite; messages name their places in it
 };
 
 /// Reads, merges and checks a configuration. Adds its search paths to `registry` and scans it.
