@@ -123,7 +123,7 @@ void plan_trial(const fs::path& folder) {
   RunOptions options = run_options_of(config, request.part);
   options.flexible = report.flexible;
   options.constraints = constraints_of(config.constraints, assembly);
-  if (!options.constraints.empty() && request.part.empty() && !setup.sequence_planner->keeps_constraints())
+  if (!options.constraints.empty() && request.part.empty() && !setup.sequence_planner->traits().keeps_constraints)
     throw Error(fmt::format("the suite has constraints, and sequence planner '{}' does not keep any",
                             config.sequence_planner.type));
   Recorder recorder(folder, assembly, options);
