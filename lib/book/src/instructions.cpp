@@ -6,7 +6,7 @@
 #include <map>
 
 #include "dismantle/errors.h"
-#include "dismantle/plan_io/groups.h"
+#include "dismantle/plan_io/plan_history.h"
 
 namespace dismantle {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 class InstructionWriter {
  public:
   InstructionWriter(const Plan& plan, const Assembly& assembly, bool disassembly)
-      : plan_(plan), assembly_(assembly), disassembly_(disassembly) {
+      : plan_(plan), history_(plan), assembly_(assembly), disassembly_(disassembly) {
     for (std::size_t i = 0; i < assembly.parts.size(); ++i) {
       index_.emplace(assembly.parts[i].name, i);
       const Aabb box = assembly.parts[i].mesh->box();
@@ -26,7 +26,7 @@ class InstructionWriter {
   }
 
   std::vector<BookChapter> write() {
-    follow();
+    find_steps();
     std::vector<BookChapter> out;
     emit(0, out);
     int letter = 0;
@@ -37,9 +37,9 @@ class InstructionWriter {
 
  private:
   struct Group {
-    std::vector<std::size_t> parts, rest;
-    std::vector<BookStep> steps;          // in the order of the plan
-    std::vector<std::size_t> taken_from;  // groups, in the order of the plan
+    std::vector<std::size_t> parts, rest;  // when it comes to be, and at the end
+    std::vector<BookStep> steps;           // in the order of the plan
+    std::vector<std::size_t> taken_from;   // groups, in the order of the plan
   };
 
   std::size_t index_of(const std::string& name) const {
@@ -47,48 +47,42 @@ class InstructionWriter {
     if (it == index_.end()) throw InputError(name, "the plan has a part that the assembly lacks");
     return it->second;
   }
-  std::vector<std::size_t> indices(const std::vector<std::size_t>& of_plan) const {
+  /// Parts of a group after `done` steps, ascending.
+  std::vector<std::size_t> members(std::size_t group, std::size_t done) const {
     std::vector<std::size_t> out;
-    for (const std::size_t i : of_plan) out.push_back(index_of(plan_.assembly.parts[i].name));
+    for (const std::size_t i : history_.members(group, done)) out.push_back(index_of(plan_.assembly.parts[i].name));
     std::ranges::sort(out);
     return out;
   }
 
-  /// Replays the plan to collect the steps of each group and the tree of groups.
-  void follow() {
-    std::vector<std::size_t> all;
-    for (const PlanPart& part : plan_.assembly.parts) all.push_back(index_of(part.name));
-    std::ranges::sort(all);
-    groups_.push_back({all, all, {}, {}});
-    group_of_.assign(assembly_.parts.size(), 0);
-    now_.assign(assembly_.parts.size(), Pose{});
-    const auto splits = follow_groups(plan_);
-    for (std::size_t s = 0; s < plan_.disassembly.size(); ++s) {
+  /// Collects the steps of each group and the tree of groups.
+  void find_steps() {
+    groups_.resize(history_.groups());
+    groups_[0].parts = members(0, 0);
+    for (std::size_t s = 0; s < history_.steps(); ++s) {
       const PlanStep& step = plan_.disassembly[s];
-      if (splits[s].size() > 1)
+      const auto& splits = history_.splits(s);
+      if (splits.size() > 1)
         throw InputError(fmt::format("step {}", step.step), "takes parts from two groups, which no page can show");
-      if (!splits[s].empty()) {
-        const auto rest = indices(splits[s].front().rest);
-        const std::size_t group = group_of_[rest.front()];
-        groups_[group].steps.push_back(page(step, groups_[group].rest, rest));
-        groups_[group].rest = rest;
-        for (const auto& piece : splits[s].front().out) {
-          const auto parts = indices(piece);
-          for (const std::size_t i : parts) group_of_[i] = groups_.size();
-          groups_[group].taken_from.push_back(groups_.size());
-          groups_.push_back({parts, parts, {}, {}});
-        }
+      if (!splits.empty()) {
+        Group& group = groups_[splits.front().from];
+        group.steps.push_back(page(s, splits.front().from));
+        group.taken_from.insert(group.taken_from.end(), splits.front().out.begin(), splits.front().out.end());
+        for (const std::size_t piece : splits.front().out) groups_[piece].parts = members(piece, s + 1);
       } else if (!step.moves.empty()) {
-        const std::size_t group = group_of_[index_of(step.moves.front().part)];
-        groups_[group].steps.push_back(page(step, groups_[group].rest, groups_[group].rest));
+        const std::size_t group = history_.group_of(history_.index_of(step.moves.front().part), s);
+        groups_[group].steps.push_back(page(s, group));
         groups_[group].steps.back().shifts_only = true;
       }
-      for (const PlanMove& move : step.moves) now_[index_of(move.part)] = move.poses.back();
     }
+    for (std::size_t g = 0; g < groups_.size(); ++g) groups_[g].rest = members(g, history_.steps());
   }
 
-  /// The step relative to the largest part of `staying`; parts that do not move are preferred.
-  BookStep page(const PlanStep& step, const std::vector<std::size_t>& whole, const std::vector<std::size_t>& staying) {
+  /// What step `s` does to a group, relative to the largest part that stays in it; parts that do not move are
+  /// preferred.
+  BookStep page(std::size_t s, std::size_t group) const {
+    const PlanStep& step = plan_.disassembly[s];
+    const std::vector<std::size_t> whole = members(group, s), staying = members(group, s + 1);
     std::map<std::size_t, const std::vector<Pose>*> moved;
     for (const PlanMove& move : step.moves) moved[index_of(move.part)] = &move.poses;
     const auto better = [&](std::size_t a, std::size_t b) {
@@ -97,15 +91,17 @@ class InstructionWriter {
     };
     const std::size_t seen_from = *std::ranges::max_element(staying, better);
     const std::size_t count = step.moves.empty() ? 1 : step.moves.front().poses.size();
-    const auto pose_at = [&](std::size_t part, std::size_t k) {
+    const auto poses_of = [&](std::size_t part) {
       const auto it = moved.find(part);
-      return it == moved.end() ? now_[part] : (*it->second)[k];
+      if (it != moved.end()) return *it->second;
+      return std::vector<Pose>(count, history_.pose_of(history_.index_of(assembly_.parts[part].name), s));
     };
+    const std::vector<Pose> base = poses_of(seen_from);
     BookStep out;
     out.plan_step = step.step;
     for (const std::size_t part : whole) {
-      std::vector<Pose> poses;
-      for (std::size_t k = 0; k < count; ++k) poses.push_back(pose_at(seen_from, k).inverse() * pose_at(part, k));
+      std::vector<Pose> poses = poses_of(part);
+      for (std::size_t k = 0; k < count; ++k) poses[k] = base[k].inverse() * poses[k];
       if (!disassembly_) std::ranges::reverse(poses);
       if (!moves(part, poses)) {
         out.standing.push_back({part, poses.front()});
@@ -154,6 +150,7 @@ class InstructionWriter {
   }
 
   const Plan& plan_;
+  const PlanHistory history_;
   const Assembly& assembly_;
   const bool disassembly_;
   std::map<std::string, std::size_t> index_;
@@ -161,8 +158,6 @@ class InstructionWriter {
   std::vector<double> radii_;
   double still_ = 0;  // input units: smaller motions relative to the base are ignored
   std::vector<Group> groups_;
-  std::vector<std::size_t> group_of_;
-  std::vector<Pose> now_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -130,6 +131,40 @@ TEST(Explain, AdviceNamesTheKeyAndWhatItWas) {
   EXPECT_NE(advice(Outcome::infeasible, settings).find("verify.max_penetration"), std::string::npos);
   EXPECT_NE(advice(Outcome::exhausted, settings, "the constraints hold it back").find("`constraints`"),
             std::string::npos);
+}
+
+TEST(Explain, AShellReadsTheNamesInCommandsAsTheyAre) {
+  Rng rng(4);
+  for (const std::string source : {"plain", "with space", "it's", "$(rm -rf x)", "a\"b", "é;|&", "-x", "a/b.step"}) {
+    Plan plan = partial_plan(2, rng);
+    plan.assembly.source = source;
+    plan.unsolved[0].outcome = Outcome::invalid_start;
+    const std::string advice = explain(plan, {}).left.at(0).advice.at(0), command = "`dismantle check ";
+    ASSERT_TRUE(advice.starts_with(command)) << advice;
+    const std::string word = advice.substr(command.size(), advice.rfind('`') - command.size());
+    FILE* shell = popen(("printf %s " + word).c_str(), "r");
+    ASSERT_NE(shell, nullptr);
+    std::string read(64, '\0');
+    read.resize(std::fread(read.data(), 1, read.size(), shell));
+    EXPECT_EQ(pclose(shell), 0);
+    EXPECT_EQ(read, source);
+  }
+}
+
+TEST(Explain, HowFarAPartCameCountsFromItsLastPoseInThePlan) {
+  Rng rng(6);
+  Plan plan = partial_plan(3, rng);
+  const Pose away{{0, 40, 0}, rotation_from_vector({0, 0, 1})};
+  plan.disassembly[0].moves = {{name(1), {Pose{}, away}}, {name(2), {Pose{}, away}}};
+  plan.disassembly[0].separates = {{name(1), name(2)}};
+  plan.unsolved[0].best_pose = away;
+  plan.unsolved[1].best_pose = Pose{{3, 0, 0}, Eigen::Quaterniond::Identity()} * away;
+  const auto left = [&](std::size_t i) { return explain(plan, {}, name(i)).left.at(0).parts.at(0); };
+  EXPECT_FALSE(left(1).moved);
+  EXPECT_EQ(left(1).travel, 0);
+  EXPECT_TRUE(left(2).moved);
+  EXPECT_NEAR(left(2).travel, 3, 1e-12);
+  EXPECT_NE(explain_text(explain(plan, {}, name(1))).find("it did not move"), std::string::npos);
 }
 
 TEST(Explain, OrderIsThatOfThePlan) {

@@ -1,4 +1,4 @@
-// Groups, motions in words, and the texts that are made of them.
+// Motions in words, and the texts and graphs that are made of plans.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -10,7 +10,6 @@
 #include "dismantle/errors.h"
 #include "dismantle/geometry/length_unit.h"
 #include "dismantle/plan_io/exports.h"
-#include "dismantle/plan_io/groups.h"
 #include "dismantle/plan_io/input_frame.h"
 #include "dismantle/plan_io/motion_words.h"
 #include "dismantle/testing/shapes.h"
@@ -65,46 +64,6 @@ RandomDisassembly random_disassembly(std::mt19937& random, std::size_t count) {
   }
   plan.status = PlanStatus::complete;
   return out;
-}
-
-TEST(Groups, EachStepSplitsOneGroupIntoWhatStaysAndWhatGoes) {
-  std::mt19937 random(1);
-  for (int trial = 0; trial < 60; ++trial) {
-    const Plan plan = random_disassembly(random, 2 + trial % 12).plan;
-    const auto splits = follow_groups(plan);
-    ASSERT_EQ(splits.size(), plan.disassembly.size());
-    std::set<std::vector<std::size_t>> exist;
-    std::vector<std::size_t> all(plan.assembly.parts.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    exist.insert(all);
-    for (const auto& step : splits) {
-      ASSERT_EQ(step.size(), 1u);
-      const GroupSplit& split = step[0];
-      EXPECT_EQ(exist.erase(split.whole), 1u) << "only what exists can be taken apart";
-      std::vector<std::size_t> pieces = split.rest;
-      for (const auto& piece : split.out) {
-        pieces.insert(pieces.end(), piece.begin(), piece.end());
-        exist.insert(piece);
-      }
-      exist.insert(split.rest);
-      std::ranges::sort(pieces);
-      EXPECT_EQ(pieces, split.whole);
-    }
-    EXPECT_EQ(exist.size(), all.size()) << "in the end each part is alone";
-  }
-}
-
-TEST(Groups, WhenAllIsNamedWhatDoesNotMoveStays) {
-  Plan plan;
-  for (const char* name : {"a", "b", "c"}) plan.assembly.parts.push_back({0, name, "x", {}, {}});
-  PlanStep step;
-  step.moves = {{"a", {Pose{}, Pose{}}}, {"b", {Pose{}, Pose{}}}};
-  step.separates = {{"a", "b"}, {"c"}};
-  plan.disassembly = {step};
-  const auto splits = follow_groups(plan);
-  EXPECT_EQ(splits[0][0].rest, std::vector<std::size_t>{2});
-  plan.disassembly[0].separates = {{"ghost"}};
-  EXPECT_THROW(follow_groups(plan), InputError);
 }
 
 TEST(Exports, TheAndOrGraphIsATreeDownToTheParts) {

@@ -9,6 +9,7 @@
 #include "dismantle/run_context.h"
 #include "dismantle/testing/shapes.h"
 #include "glb_reader.h"
+#include "random_plan.h"
 
 namespace dismantle {
 namespace {
@@ -35,22 +36,6 @@ Mesh cylinder_mesh(std::uint32_t sides) {
   return m;
 }
 
-/// Parts in input units `scale` times smaller and moved by `center`.
-Assembly assembly_of(const std::vector<std::pair<std::string, Mesh>>& meshes, double scale,
-                     const Eigen::Vector3d& center) {
-  Assembly a;
-  a.normalization = {scale, center};
-  for (const auto& [name, mesh] : meshes) {
-    Part part;
-    part.id = static_cast<PartId>(a.parts.size());
-    part.name = name;
-    part.mesh = part.surface = std::make_shared<Mesh>(mesh);
-    a.parts.push_back(part);
-    for (const auto& v : mesh.vertices) a.input_box.extend(a.normalization.to_input(v));
-  }
-  return a;
-}
-
 PlanStep step_of(unsigned number, std::vector<PlanMove> moves) {
   PlanStep s;
   s.step = number;
@@ -71,8 +56,9 @@ Eigen::Quaterniond quaternion_of(const Json& json) {
 
 TEST(Glb, AssemblyIsTheSecondAnimation) {
   const Assembly assembly =
-      assembly_of({{"a", box({-1, -1, -1}, {1, 1, 1})}, {"base", box({-5, -5, -2}, {5, 5, -1})}}, 1, {0, 0, 0});
+      assembly_of_meshes({{"a", box({-1, -1, -1}, {1, 1, 1})}, {"base", box({-5, -5, -2}, {5, 5, -1})}}, 1, {0, 0, 0});
   Plan plan;
+  plan.assembly = described(assembly);
   plan.disassembly = {step_of(1, {{"a", straight({0, 0, 9}, 5)}})};
   EXPECT_EQ(Glb(to_glb(plan, assembly)).json["animations"].size(), 1u);
   plan.assembly_steps = plan.disassembly;
@@ -102,12 +88,13 @@ TEST(Glb, EveryKeyPutsTheGeometryWhereThePlanSays) {
     // The last trials: millimetre parts a hundred kilometres from the origin.
     const bool far = trial >= 20;
     const Eigen::Vector3d center = far ? Eigen::Vector3d(1e8, -1e8, 3e7) : Eigen::Vector3d(1, 2, 3);
-    const Assembly assembly = assembly_of({{"a b", box({-1, -1, -1}, {1, 1, 1})},
-                                           {"çylinder", cylinder_mesh(24)},
-                                           {"base", box({-5, -5, -2}, {5, 5, -1})}},
-                                          10 / (far ? 50.0 : 0.001 + rng.uniform()), center);
+    const Assembly assembly = assembly_of_meshes({{"a b", box({-1, -1, -1}, {1, 1, 1})},
+                                                  {"çylinder", cylinder_mesh(24)},
+                                                  {"base", box({-5, -5, -2}, {5, 5, -1})}},
+                                                 10 / (far ? 50.0 : 0.001 + rng.uniform()), center);
     const double size = assembly.input_box.size().maxCoeff();
     Plan plan;
+    plan.assembly = described(assembly);
     plan.generator_version = "0.1.0";
     std::vector<Pose> turn(1 + 2 + rng.below(30));
     for (std::size_t k = 1; k < turn.size(); ++k) {
@@ -187,10 +174,11 @@ TEST(Glb, CongruentPartsShareASurfaceAndStandWhereTheyStood) {
       const Pose pose{{4.0 * i, rng.uniform(-5, 5), rng.uniform(-5, 5)}, rotation_from_vector(2 * axis)};
       parts.emplace_back("p" + std::to_string(i), relocated(shape, pose));
     }
-    Assembly assembly = assembly_of(parts, 2, {1, 2, 3});
+    Assembly assembly = assembly_of_meshes(parts, 2, {1, 2, 3});
     assembly.unit = "inch";
     for (Part& part : assembly.parts) part.colour = Rgba{static_cast<std::uint8_t>(part.id < 3 ? 10 : 200), 40, 60};
     Plan plan;
+    plan.assembly = described(assembly);
     plan.disassembly = {step_of(1, {{"p4", straight({0, 0, 9}, 4)}})};
     const Glb glb(to_glb(plan, assembly));
     EXPECT_EQ(glb.json["meshes"].size(), 2u) << "one shape in two colours";
@@ -236,8 +224,8 @@ TEST(Glb, ExplodedPartsAreClearOfEachOther) {
       parts.emplace_back("p" + std::to_string(i), box({-w, -w, double(i)}, {w, w, i + 1.0}));
       if (i > 0) plan.disassembly.push_back(step_of(i, {{"p" + std::to_string(6 - i), straight({0, 0, 9}, 3)}}));
     }
-    const Assembly assembly = assembly_of(parts, 2, {0, 0, 0});
-    for (const Part& part : assembly.parts) plan.assembly.parts.push_back({part.id, part.name, "x.obj", {}, {}});
+    const Assembly assembly = assembly_of_meshes(parts, 2, {0, 0, 0});
+    plan.assembly = described(assembly);
     const Glb glb(to_exploded_glb(plan, assembly, input_frame(assembly)));
     EXPECT_FALSE(glb.json.contains("animations"));
     double top = -1e9;
@@ -250,14 +238,14 @@ TEST(Glb, ExplodedPartsAreClearOfEachOther) {
 }
 
 TEST(Glb, AnUnknownUnitIsNamed) {
-  Assembly assembly = assembly_of({{"a", cylinder_mesh(8)}}, 1, {0, 0, 0});
+  Assembly assembly = assembly_of_meshes({{"a", cylinder_mesh(8)}}, 1, {0, 0, 0});
   assembly.unit = "furlong";
   EXPECT_THROW(to_glb(Plan{}, assembly), InputError);
 }
 
 TEST(Glb, NormalsAreSmoothOnRoundsAndHardOnEdges) {
   const Assembly assembly =
-      assembly_of({{"cylinder", cylinder_mesh(24)}, {"box", box({3, 3, 3}, {4, 4, 4})}}, 1, {0, 0, 0});
+      assembly_of_meshes({{"cylinder", cylinder_mesh(24)}, {"box", box({3, 3, 3}, {4, 4, 4})}}, 1, {0, 0, 0});
   const Glb glb(to_glb(Plan{}, assembly));
   const auto attribute = [&](const std::string& part, const char* name) {
     return glb.read(glb.json["meshes"][glb.json["nodes"][glb.node_of.at(part)]["mesh"].get<std::size_t>()]["primitives"]
@@ -274,14 +262,14 @@ TEST(Glb, NormalsAreSmoothOnRoundsAndHardOnEdges) {
 }
 
 TEST(Glb, APlanWithoutStepsHasNoAnimation) {
-  const Glb glb(to_glb(Plan{}, assembly_of({{"a", box({0, 0, 0}, {1, 1, 1})}}, 2, {7, 7, 7})));
+  const Glb glb(to_glb(Plan{}, assembly_of_meshes({{"a", box({0, 0, 0}, {1, 1, 1})}}, 2, {7, 7, 7})));
   EXPECT_FALSE(glb.json.contains("animations"));
 }
 
 TEST(Glb, LargeMeshesGetLongIndicesAndFlatTrianglesAreLeftOut) {
   Mesh m = cylinder_mesh(40'000);
   m.triangles.push_back({0, 1, 0});
-  const Glb glb(to_glb(Plan{}, assembly_of({{"a", m}}, 1, {0, 0, 0})));
+  const Glb glb(to_glb(Plan{}, assembly_of_meshes({{"a", m}}, 1, {0, 0, 0})));
   const Json& primitive = glb.json["meshes"][0]["primitives"][0];
   EXPECT_EQ(glb.json["accessors"][primitive["indices"].get<std::size_t>()]["componentType"], 5125);
   EXPECT_EQ(glb.json["accessors"][primitive["indices"].get<std::size_t>()]["count"], 3 * (m.triangles.size() - 1));
@@ -294,7 +282,9 @@ TEST(Glb, ColoursTellLeaversApartAndWhatStaysIsGrey) {
     parts.emplace_back("p" + std::to_string(i), box({2.0 * i, 0, 0}, {2.0 * i + 1, 1, 1}));
     if (i < 8) plan.disassembly.push_back(step_of(i + 1, {{parts.back().first, straight({0, 0, 9}, 3)}}));
   }
-  const Glb glb(to_glb(plan, assembly_of(parts, 1, {0, 0, 0})));
+  const Assembly assembly = assembly_of_meshes(parts, 1, {0, 0, 0});
+  plan.assembly = described(assembly);
+  const Glb glb(to_glb(plan, assembly));
   std::vector<Eigen::Vector3d> colours;
   for (const Json& m : glb.json["materials"]) {
     const Json& c = m["pbrMetallicRoughness"]["baseColorFactor"];
@@ -307,7 +297,9 @@ TEST(Glb, ColoursTellLeaversApartAndWhatStaysIsGrey) {
 TEST(Glb, SamePlanSameBytes) {
   Plan plan;
   plan.disassembly = {step_of(1, {{"a", straight({0, 0, 3}, 9)}})};
-  const Assembly assembly = assembly_of({{"a", cylinder_mesh(32)}, {"b", box({3, 3, 3}, {4, 4, 4})}}, 1, {0, 0, 0});
+  const Assembly assembly =
+      assembly_of_meshes({{"a", cylinder_mesh(32)}, {"b", box({3, 3, 3}, {4, 4, 4})}}, 1, {0, 0, 0});
+  plan.assembly = described(assembly);
   EXPECT_EQ(to_glb(plan, assembly), to_glb(plan, assembly));
 }
 
@@ -315,7 +307,7 @@ TEST(Glb, APartThatTheAssemblyDoesNotHaveIsNamed) {
   Plan plan;
   plan.disassembly = {step_of(1, {{"ghost", straight({0, 0, 3}, 2)}})};
   try {
-    to_glb(plan, assembly_of({{"a", cylinder_mesh(8)}}, 1, {0, 0, 0}));
+    to_glb(plan, assembly_of_meshes({{"a", cylinder_mesh(8)}}, 1, {0, 0, 0}));
     ADD_FAILURE();
   } catch (const InputError& e) {
     EXPECT_EQ(e.subject(), "ghost");

@@ -3,11 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
+#include <cstring>
 #include <optional>
 
 namespace dismantle {
 namespace {
+
+/// A name as a word of the shell, in quotes only where it needs them.
+std::string shell_word(const std::string& text) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || std::strchr("_./-", c) != nullptr; };
+  if (!text.empty() && std::ranges::all_of(text, plain)) return text;
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? "'\\''" : std::string(1, c);
+  return out + "'";
+}
 
 class Advisor {
  public:
@@ -102,10 +113,10 @@ class Advisor {
 
   void leave_out() {
     const std::string& name = reason_.parts.front().part;
-    add(fmt::format(
-        "Plan without one of them: `--set 'constraints.ignore=[\"{}\"]'`; or keep what holds together as one: "
-        "`constraints: {{together: [[...]]}}`.",
-        name));
+    add(
+        fmt::format("Plan without one of them: `--set {}`; or keep what holds together as one: "
+                    "`constraints: {{together: [[...]]}}`.",
+                    shell_word(fmt::format("constraints.ignore=[\"{}\"]", name))));
   }
 
   void on_outcome() {
@@ -134,7 +145,7 @@ class Advisor {
         break;
       case Outcome::invalid_start:
         add(fmt::format("`dismantle check {}` shows where parts overlap or have open surfaces.",
-                        plan_.assembly.source));
+                        shell_word(plan_.assembly.source)));
         break;
       case Outcome::cancelled:
         add("Run again without interrupting it.");
@@ -162,7 +173,7 @@ class Advisor {
       add(fmt::format(
           "Parts overlap when assembled: `dismantle check {}` says where; what is drawn into each other often "
           "cannot leave.",
-          plan_.assembly.source));
+          shell_word(plan_.assembly.source)));
   }
 
   const LeftReason& reason_;

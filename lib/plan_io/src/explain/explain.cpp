@@ -6,7 +6,9 @@
 #include <set>
 
 #include "dismantle/errors.h"
+#include "dismantle/plan_io/plan_history.h"
 #include "explain/advice.h"
+#include "explain/reach.h"
 
 namespace dismantle {
 namespace {
@@ -15,15 +17,15 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-LeftPart left_part(const Plan& plan, const PlanUnsolved& u) {
+LeftPart left_part(const Plan& plan, const PlanHistory& history, const PlanUnsolved& u) {
   LeftPart out;
   out.part = u.part;
   out.best_pose = u.best_pose;
-  const Eigen::Vector3d& middle = plan.assembly.center;
-  if (!u.best_pose.is_identity()) {
-    out.travel = (u.best_pose * middle - middle).norm();
-    out.turn = angle_between(u.best_pose.q, Eigen::Quaterniond::Identity());
-  }
+  const Pose last = history.pose_of(history.index_of(u.part), history.steps());
+  const Reach reach = reach_of(plan, last, u.best_pose, plan.assembly.center);
+  out.moved = reach.moved;
+  out.travel = reach.travel;
+  out.turn = reach.turn;
   out.planner = u.planner;
   out.attempts = u.attempts;
   out.depth = u.depth;
@@ -45,7 +47,8 @@ LeftPart left_part(const Plan& plan, const PlanUnsolved& u) {
 }
 
 /// Groups parts by outcome and proof. Equally large reasons are in the order of their first parts.
-std::vector<LeftReason> reasons_of(const Plan& plan, const ExplainSettings& settings, const std::string& part) {
+std::vector<LeftReason> reasons_of(const Plan& plan, const PlanHistory& history, const ExplainSettings& settings,
+                                   const std::string& part) {
   std::vector<LeftReason> out;
   for (const PlanUnsolved& u : plan.unsolved) {
     if (!part.empty() && u.part != part) continue;
@@ -60,7 +63,7 @@ std::vector<LeftReason> reasons_of(const Plan& plan, const ExplainSettings& sett
     auto reason = std::ranges::find_if(out, same);
     if (reason == out.end())
       reason = out.insert(out.end(), {u.outcome, meaning_of(u.outcome), {}, proof, u.certificate.value_or(0), {}});
-    reason->parts.push_back(left_part(plan, u));
+    reason->parts.push_back(left_part(plan, history, u));
   }
   std::ranges::stable_sort(out,
                            [](const LeftReason& a, const LeftReason& b) { return a.parts.size() > b.parts.size(); });
@@ -68,15 +71,16 @@ std::vector<LeftReason> reasons_of(const Plan& plan, const ExplainSettings& sett
   return out;
 }
 
-std::vector<std::string> out_in(const PlanStep& step) {
+/// The parts that leave in a step, or those that it shifts.
+std::vector<std::string> taken_in(const Plan& plan, const PlanHistory& history, std::size_t step) {
   std::vector<std::string> names;
-  for (const auto& group : step.separates) names.insert(names.end(), group.begin(), group.end());
+  for (const std::size_t i : history.leaving(step)) names.push_back(plan.assembly.parts[i].name);
   if (names.empty())
-    for (const PlanMove& move : step.moves) names.push_back(move.part);
+    for (const PlanMove& move : plan.disassembly[step].moves) names.push_back(move.part);
   return names;
 }
 
-std::vector<StepReason> steps_of(const Plan& plan, const std::string& part) {
+std::vector<StepReason> steps_of(const Plan& plan, const PlanHistory& history, const std::string& part) {
   std::vector<StepReason> out;
   for (const PlanStep& step : plan.disassembly) {
     StepReason reason;
@@ -88,7 +92,7 @@ std::vector<StepReason> steps_of(const Plan& plan, const std::string& part) {
     reason.contacts = step.contacts;
     for (const unsigned earlier : step.after)
       if (earlier >= 1 && earlier <= plan.disassembly.size())
-        for (std::string& name : out_in(plan.disassembly[earlier - 1]))
+        for (std::string& name : taken_in(plan, history, earlier - 1))
           if (!has(reason.waited_for, name)) reason.waited_for.push_back(std::move(name));
     out.push_back(std::move(reason));
   }
@@ -97,11 +101,21 @@ std::vector<StepReason> steps_of(const Plan& plan, const std::string& part) {
 
 }  // namespace
 
+Reach reach_of(const Plan& plan, const Pose& last, const Pose& best, const Eigen::Vector3d& point) {
+  const double size = plan.assembly.box.empty() ? 1 : plan.assembly.box.size().maxCoeff();
+  Reach out;
+  out.travel = (best * point - last * point).norm();
+  out.turn = angle_between(best.q, last.q);
+  out.moved = out.travel > 1e-9 * size || out.turn > 1e-5;
+  return out;
+}
+
 Explanation explain(const Plan& plan, const ExplainSettings& settings, const std::string& part) {
   const auto known = [&](const PlanPart& p) { return p.name == part; };
   if (!part.empty() && std::ranges::none_of(plan.assembly.parts, known))
     throw InputError(plan.assembly.source, fmt::format("the plan has no part '{}'", part));
-  Explanation out{&plan, steps_of(plan, part), reasons_of(plan, settings, part), {}};
+  const PlanHistory history(plan);
+  Explanation out{&plan, steps_of(plan, history, part), reasons_of(plan, history, settings, part), {}};
   if (plan.status != PlanStatus::partial) return out;
   for (const std::string& name : plan.remaining)
     if ((part.empty() || name == part) &&

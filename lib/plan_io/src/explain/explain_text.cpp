@@ -17,7 +17,7 @@ std::string place_text(const Eigen::Vector3d& p) {
 
 /// How far the part came.
 std::string travel_text(const Plan& plan, const LeftPart& part) {
-  if (part.best_pose.is_identity()) return "it did not move";
+  if (!part.moved) return "it did not move";
   std::string out = "came " + length_text(plan, part.travel);
   if (const double size = size_of(plan); size > 0)
     out += fmt::format(" ({:.1f} % of the assembly's largest edge)", 100 * part.travel / size);

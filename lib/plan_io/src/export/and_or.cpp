@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "dismantle/plan_io/exports.h"
-#include "dismantle/plan_io/groups.h"
+#include "dismantle/plan_io/plan_history.h"
 #include "dismantle/plan_io/text_columns.h"
 #include "export/dot_text.h"
 #include "json/json_text.h"
@@ -29,20 +30,20 @@ struct AndOrGraph {
 AndOrGraph and_or_graph(const Plan& plan) {
   AndOrGraph graph;
   std::map<std::vector<std::size_t>, std::size_t> known;
-  const auto node = [&](const std::vector<std::size_t>& parts) {
+  const auto node = [&](std::span<const std::size_t> members) {
+    std::vector<std::size_t> parts(members.begin(), members.end());
+    std::ranges::sort(parts);
     const auto [it, fresh] = known.try_emplace(parts, graph.nodes.size());
     if (fresh) graph.nodes.push_back(parts);
     return it->second;
   };
   if (plan.assembly.parts.empty()) return graph;
-  std::vector<std::size_t> all(plan.assembly.parts.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-  node(all);
-  const auto splits = follow_groups(plan);
-  for (std::size_t s = 0; s < splits.size(); ++s)
-    for (const GroupSplit& split : splits[s]) {
-      AndOrArc arc{s, node(split.whole), {node(split.rest)}};
-      for (const auto& piece : split.out) arc.to.push_back(node(piece));
+  const PlanHistory history(plan);
+  node(history.members(0, 0));
+  for (std::size_t s = 0; s < history.steps(); ++s)
+    for (const GroupSplit& split : history.splits(s)) {
+      AndOrArc arc{s, node(history.members(split.from, s)), {node(history.members(split.from, s + 1))}};
+      for (const std::size_t group : split.out) arc.to.push_back(node(history.members(group, s + 1)));
       graph.arcs.push_back(std::move(arc));
     }
   return graph;

@@ -25,28 +25,19 @@ std::string csv_field(const std::string& raw) {
 }
 
 /// Rounds to microseconds; smaller digits are noise of the computation.
-double shown_time(double seconds) { return std::round(1e6 * seconds) / 1e6; }
+double shown_time(float seconds) { return std::round(1e6 * static_cast<double>(seconds)) / 1e6; }
 
 std::array<double, 7> numbers_of(const Pose& p) {
   return {p.t.x(), p.t.y(), p.t.z(), p.q.w(), p.q.x(), p.q.y(), p.q.z()};
 }
 
-/// The steps that move something, as in Timeline::steps.
-std::vector<const PlanStep*> moving_steps(const std::vector<PlanStep>& steps) {
-  std::vector<const PlanStep*> out;
-  for (const PlanStep& step : steps)
-    if (!step.moves.empty()) out.push_back(&step);
-  return out;
-}
-
 void append_rows(std::string& out, const char* animation, const std::vector<PlanStep>& all, const Assembly& assembly) {
   const Timeline line = timeline(all, assembly);
-  const auto steps = moving_steps(all);
-  for (std::size_t s = 0; s < steps.size(); ++s)
-    for (const PlanMove& move : steps[s]->moves)
+  for (const StepTime& step : line.steps)
+    for (const PlanMove& move : all[step.index].moves)
       for (std::size_t k = 0; k < move.poses.size(); ++k) {
-        out += fmt::format("{},{},{},{},{}", animation, steps[s]->step, csv_field(move.part), k,
-                           number_text(shown_time(line.steps[s].pose_times[k])));
+        out += fmt::format("{},{},{},{},{}", animation, step.step, csv_field(move.part), k,
+                           number_text(shown_time(step.pose_times[k])));
         for (const double x : numbers_of(move.poses[k])) out += ',' + number_text(x);
         out += '\n';
       }
@@ -56,18 +47,17 @@ void append_rows(std::string& out, const char* animation, const std::vector<Plan
 template <class ChecksOf>
 nlohmann::ordered_json poses_of(const std::vector<PlanStep>& all, const Assembly& assembly, ChecksOf checks_of) {
   const Timeline line = timeline(all, assembly);
-  const auto steps = moving_steps(all);
   auto out = nlohmann::ordered_json::array();
-  for (std::size_t s = 0; s < steps.size(); ++s) {
+  for (const StepTime& step : line.steps) {
     auto times = nlohmann::ordered_json::array(), moves = nlohmann::ordered_json::array();
-    for (const double t : line.steps[s].pose_times) times.push_back(shown_time(t));
-    for (const PlanMove& move : steps[s]->moves) {
+    for (const float t : step.pose_times) times.push_back(shown_time(t));
+    for (const PlanMove& move : all[step.index].moves) {
       auto poses = nlohmann::ordered_json::array();
       for (const Pose& pose : move.poses) poses.push_back(numbers_of(pose));
       moves.push_back({{"part", move.part}, {"poses", std::move(poses)}});
     }
-    out.push_back({{"step", steps[s]->step}, {"times", std::move(times)}, {"moves", std::move(moves)}});
-    if (const auto& checks = checks_of(*steps[s]); !checks.empty()) out.back()["checks"] = verdicts_json(checks);
+    out.push_back({{"step", step.step}, {"times", std::move(times)}, {"moves", std::move(moves)}});
+    if (const auto& checks = checks_of(all[step.index]); !checks.empty()) out.back()["checks"] = verdicts_json(checks);
   }
   return out;
 }

@@ -6,14 +6,16 @@
 #include <string>
 
 #include "dismantle/plan_io/animation.h"
+#include "dismantle/plan_io/plan_history.h"
 #include "export/dot_text.h"
 
 namespace dismantle {
 std::string to_dot(const Plan& plan, const std::vector<std::pair<std::string, std::string>>& precedence) {
+  const PlanHistory history(plan);
   std::map<std::string, unsigned> left_in;
-  for (const PlanStep& step : plan.disassembly)
-    for (const auto& group : step.separates)
-      for (const std::string& name : group) left_in.emplace(name, step.step);
+  for (std::size_t s = 0; s < history.steps(); ++s)
+    for (const std::size_t i : history.leaving(s))
+      left_in.emplace(plan.assembly.parts[i].name, plan.disassembly[s].step);
 
   std::string out =
       "// a -> b: a left before b, and got in b's way while it was there.\n"

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "dismantle/plan_io/plan_history.h"
 #include "json/hex_colour.h"
 
 namespace dismantle {
@@ -15,8 +16,8 @@ namespace {
 /// sRGB component to the linear one that glTF wants.
 double linear(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
 
-/// Colour of the part that leaves as number `rank` of `count`: along the rainbow from red to violet, alternately light and
-/// dark so that neighbours differ.
+/// Colour of the part that leaves as number `rank` of `count`: along the rainbow from red to violet, alternately light
+/// and dark so that neighbours differ.
 GlbJson colour_of(std::size_t rank, std::size_t count) {
   const double hue = 0.8 * 6.0 * (count > 1 ? double(rank) / double(count - 1) : 0.0);  // sixths of a turn
   const double value = rank % 2 == 0 ? 0.95 : 0.7, saturation = 0.7;
@@ -27,22 +28,6 @@ GlbJson colour_of(std::size_t rank, std::size_t count) {
   }
   rgb.push_back(1);
   return rgb;
-}
-
-/// Parts by the order in which they leave; those that stay follow with rank `leavers`.
-std::vector<std::size_t> ranks_of(const Plan& plan, const Assembly& assembly, std::size_t& leavers) {
-  std::map<std::string, std::size_t> rank;
-  leavers = 0;
-  for (const PlanStep& step : plan.disassembly)
-    for (const auto& group : step.separates)
-      for (const std::string& name : group)
-        if (rank.emplace(name, leavers).second) ++leavers;
-  std::vector<std::size_t> out;
-  for (const Part& part : assembly.parts) {
-    const auto it = rank.find(part.name);
-    out.push_back(it == rank.end() ? leavers : it->second);
-  }
-  return out;
 }
 
 GlbJson material(const std::string& name, GlbJson colour) {
@@ -76,24 +61,26 @@ bool has_own_colours(const Assembly& assembly) {
 }  // namespace
 
 std::vector<GlbPaint> paint_parts(const Plan& plan, const Assembly& assembly) {
-  std::size_t leavers = 0;
-  const std::vector<std::size_t> ranks = ranks_of(plan, assembly, leavers);
+  const PlanHistory history(plan);
   const bool own_colours = has_own_colours(assembly);
   std::set<std::string> forced;
   for (const PlanStep& step : plan.disassembly)
     if (step.forced)
       for (const PlanMove& move : step.moves) forced.insert(move.part);
+  std::map<std::string, std::size_t> ranks;  // of parts that leave
+  for (std::size_t i = 0; i < history.parts(); ++i)
+    if (const auto rank = history.rank(i)) ranks.emplace(plan.assembly.parts[i].name, *rank);
   std::vector<GlbPaint> out;
-  for (std::size_t i = 0; i < assembly.parts.size(); ++i) {
-    const Part& part = assembly.parts[i];
+  for (const Part& part : assembly.parts) {
     if (forced.contains(part.name)) {
       GlbJson red = material("forced", GlbJson::array({0.8, 0.01, 0.01, 1}));
       red["emissiveFactor"] = {0.3, 0, 0};
       out.push_back({std::move(red), nullptr});
       continue;
     }
-    const bool stays = ranks[i] == leavers;
-    GlbJson by_order = stays ? GlbJson::array({0.4, 0.4, 0.4, 1}) : colour_of(ranks[i], leavers);
+    const auto rank = ranks.find(part.name);
+    const bool stays = rank == ranks.end();
+    GlbJson by_order = stays ? GlbJson::array({0.4, 0.4, 0.4, 1}) : colour_of(rank->second, history.leavers());
     if (!own_colours) {
       out.push_back({material(stays ? "stays" : part.name, std::move(by_order)), nullptr});
       continue;

@@ -4,16 +4,17 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 #include <string>
 
 #include "dismantle/errors.h"
-#include "dismantle/plan_io/groups.h"
+#include "dismantle/plan_io/plan_history.h"
 
 namespace dismantle {
 namespace {
 
 using Offsets = std::vector<Eigen::Vector3d>;
-using PartIndices = std::vector<std::size_t>;
+using PartIndices = std::span<const std::size_t>;
 
 /// Boxes of the plan's parts, assembled, input units.
 std::vector<Aabb> boxes_of(const Plan& plan, const Assembly& assembly) {
@@ -34,16 +35,16 @@ std::vector<Aabb> boxes_of(const Plan& plan, const Assembly& assembly) {
 }
 
 /// Mean displacement of the box centres of the parts of `group` that the step moves; zero if it moves none.
-Eigen::Vector3d mean_displacement(const PlanStep& step, const Plan& plan, const PartIndices& group,
+Eigen::Vector3d mean_displacement(const PlanStep& step, const PlanHistory& history, std::size_t group, std::size_t done,
                                   const std::vector<Aabb>& boxes) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int count = 0;
-  for (const PlanMove& move : step.moves)
-    for (const std::size_t i : group) {
-      if (plan.assembly.parts[i].name != move.part || move.poses.empty()) continue;
-      sum += move.poses.back() * boxes[i].center() - move.poses.front() * boxes[i].center();
-      ++count;
-    }
+  for (const PlanMove& move : step.moves) {
+    const std::size_t i = history.index_of(move.part);
+    if (history.group_of(i, done) != group || move.poses.empty()) continue;
+    sum += move.poses.back() * boxes[i].center() - move.poses.front() * boxes[i].center();
+    ++count;
+  }
   return count > 0 ? Eigen::Vector3d(sum / count) : sum;
 }
 
@@ -72,7 +73,7 @@ Aabb shifted(Aabb box, const Eigen::Vector3d& by) {
 
 Offsets exploded_offsets(const Plan& plan, const Assembly& assembly) {
   const std::vector<Aabb> boxes = boxes_of(plan, assembly);
-  const auto splits = follow_groups(plan);
+  const PlanHistory history(plan);
   Aabb all;
   for (const Aabb& box : boxes) all.extend(box);
   Offsets offsets(boxes.size(), Eigen::Vector3d::Zero());
@@ -82,12 +83,14 @@ Offsets exploded_offsets(const Plan& plan, const Assembly& assembly) {
 
   // In reverse, as in assembly: a group is already exploded when it has to keep clear of the rest.
   for (std::size_t s = plan.disassembly.size(); s-- > 0;)
-    for (const GroupSplit& split : splits[s]) {
-      PartIndices obstacles = split.rest;
-      for (const PartIndices& piece : split.out) {
+    for (const GroupSplit& split : history.splits(s)) {
+      const PartIndices rest = history.members(split.from, s + 1);
+      std::vector<std::size_t> obstacles(rest.begin(), rest.end());
+      for (const std::size_t group : split.out) {
         const PlanStep& step = plan.disassembly[s];
-        Eigen::Vector3d u =
-            mean_displacement(step, plan, piece, boxes) - mean_displacement(step, plan, split.rest, boxes);
+        const PartIndices piece = history.members(group, s + 1);
+        Eigen::Vector3d u = mean_displacement(step, history, group, s + 1, boxes) -
+                            mean_displacement(step, history, split.from, s + 1, boxes);
         if (!(u.norm() > 1e-9 * size)) {  // rotation only: move away from the centre
           u.setZero();
           for (const std::size_t i : piece) u += boxes[i].center() - all.center();

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 
@@ -48,13 +50,22 @@ std::vector<double> way_of(const PlanStep& step, const std::vector<Body>& bodies
   return way;
 }
 
-void append(std::vector<Key>& keys, double time, Pose pose) {
+/// When a step that begins at `begin` reaches each of its poses. Single precision, in which glTF has times, may not
+/// tell two of them apart; then the second is the next number.
+std::vector<float> pose_times(double begin, double duration, const std::vector<double>& way) {
+  std::vector<float> out;
+  const std::size_t last = way.size() - 1;
+  for (std::size_t k = 0; k <= last; ++k) {
+    const double share = way[last] > 0 ? way[k] / way[last] : last > 0 ? double(k) / double(last) : 0.0;
+    const auto time = static_cast<float>(begin + duration * share);
+    out.push_back(k == 0 ? time : std::max(time, std::nextafter(out.back(), std::numeric_limits<float>::max())));
+  }
+  return out;
+}
+
+void append(std::vector<Key>& keys, float time, Pose pose) {
   if (!keys.empty() && keys.back().pose.q.dot(pose.q) < 0) pose.q.coeffs() *= -1;
-  const auto t = static_cast<float>(time);
-  if (!keys.empty() && t <= keys.back().time)
-    keys.back().pose = pose;  // closer together than single precision can tell
-  else
-    keys.push_back({t, pose});
+  keys.push_back({time, pose});
 }
 
 }  // namespace
@@ -66,7 +77,8 @@ Timeline timeline(const std::vector<PlanStep>& steps, const Assembly& assembly) 
   std::map<PartId, Track> tracks;
   const Pace pace;
   double now = pace.before;
-  for (const PlanStep& step : steps) {
+  for (std::size_t s = 0; s < steps.size(); ++s) {
+    const PlanStep& step = steps[s];
     if (step.moves.empty()) continue;
     std::vector<Body> bodies;
     for (const PlanMove& move : step.moves) {
@@ -78,20 +90,20 @@ Timeline timeline(const std::vector<PlanStep>& steps, const Assembly& assembly) 
     }
     const std::vector<double> way = way_of(step, bodies);
     const double duration = std::clamp(pace.per_size * way.back() / size, pace.shortest, pace.longest);
-    std::vector<double> times;
-    for (std::size_t k = 0; k < way.size(); ++k)
-      times.push_back(now + duration * (way.back() > 0 ? way[k] / way.back() : double(k) / double(way.size())));
+    std::vector<float> times = pose_times(now, duration, way);
     for (std::size_t m = 0; m < bodies.size(); ++m) {
       Track& track = tracks[bodies[m].id];
       track.part = bodies[m].id;
       for (std::size_t k = 0; k < way.size(); ++k) append(track.keys, times[k], step.moves[m].poses[k]);
     }
-    out.steps.push_back({step.step, static_cast<float>(now), static_cast<float>(now + duration), {}, std::move(times)});
+    now = static_cast<double>(times.back()) + pace.between;
+    out.steps.push_back({s, step.step, times.front(), times.back(), {}, std::move(times)});
     for (const Body& body : bodies) out.steps.back().parts.push_back(body.id);
-    now += duration + pace.between;
   }
+  if (out.steps.empty()) return out;
+  out.duration = static_cast<float>(static_cast<double>(out.steps.back().end) + pace.after);
   for (auto& [id, track] : tracks) {
-    append(track.keys, now - pace.between + pace.after, track.keys.back().pose);
+    append(track.keys, out.duration, track.keys.back().pose);
     out.tracks.push_back(std::move(track));
   }
   return out;

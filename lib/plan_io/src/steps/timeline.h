@@ -21,15 +21,17 @@ struct Track {
 };
 
 struct StepTime {
-  unsigned step = 0;
-  float begin = 0, end = 0;  ///< s
+  std::size_t index = 0;     ///< among the steps of the plan
+  unsigned step = 0;         ///< its number
+  float begin = 0, end = 0;  ///< s, of the first and of the last pose
   std::vector<PartId> parts;
-  std::vector<double> pose_times;  ///< s, one per pose of the step's moves; do not decrease
+  std::vector<float> pose_times;  ///< s, one per pose of the step's moves; strictly increase
 };
 
 struct Timeline {
   std::vector<Track> tracks;
-  std::vector<StepTime> steps;
+  std::vector<StepTime> steps;  ///< those that move something
+  float duration = 0;           ///< s; 0 when nothing moves
 };
 
 /// One track per part that moves, in part order. Steps follow each other with short pauses; within a step the fastest

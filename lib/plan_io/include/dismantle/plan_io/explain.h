@@ -26,8 +26,9 @@ struct LeftPart {
   std::string part;
   std::vector<Blocker> blockers;  ///< those touched most often first
   Pose best_pose;                 ///< input units
-  double travel = 0;              ///< of the assembly's centre as if it moved with the part; input units
-  double turn = 0;                ///< rad
+  bool moved = false;             ///< the best pose is not the last one in the plan
+  double travel = 0;              ///< from there, of the assembly's centre as if it moved with the part; input units
+  double turn = 0;                ///< from there, rad
   std::string planner;            ///< empty: no search was made
   unsigned attempts = 0, depth = 0;
   double seconds = 0;
