@@ -4,10 +4,10 @@
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
-#include "dismantle/host/config_node.h"
 #include "dismantle/host/suggest.h"
 #include "dismantle/plan_file.h"
 #include "dismantle/plan_io/explain.h"
+#include "dismantle/settings_beside.h"
 
 namespace dismantle::app {
 namespace {
@@ -16,24 +16,6 @@ struct ExplainOptions {
   std::string file, part;
   ConsoleOptions console;
 };
-
-void flatten(const ConfigNode& node, const std::string& key, ExplainSettings& out) {
-  if (node.is_scalar()) out[key] = node.scalar;
-  for (const auto& member : node.members) flatten(member.value, key.empty() ? member.key : key + "." + member.key, out);
-}
-
-/// The settings of the run if resolved.yaml is beside the plan, so that the advice can quote them.
-ExplainSettings settings_beside(const std::filesystem::path& plan) {
-  ExplainSettings out;
-  const std::filesystem::path file = std::filesystem::path(plan).replace_filename("resolved.yaml");
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return out;
-  std::vector<Diagnostic> problems;
-  std::string unreadable;
-  ConfigNode root;
-  if (read_yaml(file.string(), root, problems, unreadable) && problems.empty()) flatten(root, "", out);
-  return out;
-}
 
 void check_part(const Plan& plan, const std::string& part, const std::string& file) {
   std::vector<std::string> names;

@@ -8,6 +8,7 @@
 #include "dismantle/plan_io/page.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/write_file.h"
+#include "dismantle/settings_beside.h"
 #include "dismantle/viewer_template.h"
 
 namespace dismantle::app {
@@ -28,7 +29,7 @@ int view(const ViewOptions& options) {
   const std::filesystem::path page = options.output.empty()
                                          ? std::filesystem::path(options.plan).replace_filename("index.html")
                                          : std::filesystem::path(options.output);
-  write_file(page, to_page(plan, assembly, *page_template));
+  write_file(page, to_page(plan, assembly, *page_template, settings_beside(options.plan)));
   console.end_progress();
   console.text(fmt::format("wrote {}: open it in a browser\n", page.string()));
   console.result({{"status", std::string(to_string(plan.status))},

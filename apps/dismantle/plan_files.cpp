@@ -10,6 +10,7 @@
 #include "dismantle/plan_io/page.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/write_file.h"
+#include "dismantle/settings_beside.h"
 #include "dismantle/viewer_template.h"
 
 namespace dismantle::app {
@@ -34,7 +35,8 @@ std::vector<std::string> write_results(const RunResult& result, const Assembly& 
   write_file(folder / "precedence.dot", to_dot(result.plan, result.precedence));
   std::vector<std::string> files = {"plan.json", "plan.glb", "precedence.dot", "resolved.yaml"};
   if (const auto page_template = viewer_template()) {
-    write_file(folder / "index.html", to_page(result.plan, assembly, *page_template));
+    const ExplainSettings settings = settings_beside(folder / "plan.json");
+    write_file(folder / "index.html", to_page(result.plan, assembly, *page_template, settings));
     files.insert(files.begin(), "index.html");
   } else {
     console.warning(std::string("index.html was not written: ") + kNoViewer);

@@ -1,4 +1,4 @@
-// Reads the data in the page: the plan as in plan.json, and the surfaces of the parts.
+// Reads the data in the page (docs/viewer.md): the plan as in plan.json, the surfaces of the parts, and what is to be shown.
 
 function bytesOf(base64) {
   if (typeof Uint8Array.fromBase64 === 'function') return Uint8Array.fromBase64(base64);
@@ -19,12 +19,24 @@ function readShape(shape) {
   };
 }
 
-/** @returns {plan, parts, shapes}; null if this is the template, without a plan. @throws Error if the data cannot be read. */
-export function readPage(document) {
-  const text = document.getElementById('dismantle-data').textContent.trim();
+function readView({up, leavers, animations, parts, reasons, untried}) {
+  const animation = ({duration, times}) => ({duration, times: array(Float32Array, times)});
+  return {
+    up, leavers, reasons, untried,
+    animations: {disassembly: animation(animations.disassembly), assembly: animation(animations.assembly)},
+    rank: parts.rank,
+    out: parts.out,
+    gone: array(Float32Array, parts.gone),
+    comes: array(Float32Array, parts.comes),
+    offsets: array(Float32Array, parts.offsets),
+  };
+}
+
+/** @returns {plan, parts, shapes, view}; null if this is the template, without a plan. @throws Error if the data cannot be read. */
+export function readData(text) {
   if (text === '' || text[0] === '@') return null;
   const data = JSON.parse(text);
-  if (data.format !== 'dismantle.page' || data.version !== 1)
+  if (data.format !== 'dismantle.page' || data.version !== 2)
     throw new Error(`this page cannot show data of format ${data.format}, version ${data.version}`);
   const {plan, geometry} = data;
   const parts = plan.assembly.parts.map((part, i) => {
@@ -33,5 +45,7 @@ export function readPage(document) {
     const radius = Math.hypot(...lo.map((x, k) => hi[k] - x)) / 2;
     return {index: i, name: part.name, file: part.file, source: part, shape, place, lo, hi, center, radius};
   });
-  return {plan, parts, shapes: geometry.shapes.map(readShape)};
+  return {plan, parts, shapes: geometry.shapes.map(readShape), view: readView(data.view)};
 }
+
+export const readPage = document => readData(document.getElementById('dismantle-data').textContent.trim());

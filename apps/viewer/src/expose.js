@@ -33,7 +33,7 @@ export function expose(app, display) {
     setFading: on => app.setFading(on),
     select: name => app.select(name === null ? -1 : index(name)),
     box: name => { const {lo, hi} = model.parts[index(name)]; return [lo.slice(), hi.slice()]; },
-    offset: name => model.offsets[index(name)].slice(),
+    offset: name => Array.from(model.offsets[index(name)]),
     fit: () => app.fit(false),
     view: from => app.stage.fit(app.parts.boxes(i => app.opacity(i) > 0), {from, fly: false}),
     info: () => app.stage.renderer.info,

@@ -1,60 +1,35 @@
-// The page's model of the plan, computed once: poses over time, colours, and the parts that did not come out.
+// The plan as the page shows it. What is out when, the exploded view and the reasons come with the page; nothing of it is computed here.
 import {byOrder, given, STAYS, TROUBLE} from './plan/colours.js';
-import {explode} from './plan/explode.js';
-import {followGroups} from './plan/groups.js';
-import {transform} from './plan/screw.js';
-import {layOut, stepAt} from './plan/timeline.js';
+import {readAnimation, stepAt} from './plan/animation.js';
 import {sizeOf} from './plan/words.js';
 
-const FADE = 0.3;  // s, limited by the pause between steps
+const FADE = 0.3;  // s
 
 export class Model {
-  constructor({plan, parts, shapes}) {
-    Object.assign(this, {plan, parts, shapes});
+  constructor({plan, parts, shapes, view}) {
+    Object.assign(this, {plan, parts, shapes, view});
     this.index = new Map(parts.map(p => [p.name, p.index]));
     this.size = sizeOf(plan);
-    const bodies = new Map(parts.map(p => [p.name, p]));
     this.lines = {
-      disassembly: layOut(plan.disassembly, bodies, this.size),
-      assembly: layOut(plan.assembly_steps ?? [], bodies, this.size),
+      disassembly: readAnimation(plan.disassembly, view.animations.disassembly, this.index),
+      assembly: readAnimation(plan.assembly_steps ?? [], view.animations.assembly, this.index),
     };
-    const groups = followGroups(plan.disassembly, parts.map(p => p.name));
-    this.rank = groups.rank;
-    this.leavers = groups.leavers;
-    this.leftIn = groups.leftIn;
     const box = plan.assembly.bbox ?? [[0, 0, 0], [1, 1, 1]];
     this.origin = box[0].map((x, k) => (x + box[1][k]) / 2);
-    this.offsets = explode(plan.disassembly, groups.splits, parts, this.size, this.origin);
+    this.offsets = parts.map((_, i) => view.offsets.subarray(3 * i, 3 * i + 3));
     this.unsolved = new Map(plan.unsolved.map(u => [this.index.get(u.part), u]));
+    this.reach = new Map(view.reasons.flatMap(reason => reason.parts.map(p => [p.part, p])));
     const forced = plan.disassembly.filter(s => s.forced).flatMap(s => s.moves.map(m => this.index.get(m.part)));
     this.forced = new Set(forced);
     this.remaining = new Set(plan.remaining.map(name => this.index.get(name)));
     this.hasColours = plan.assembly.parts.some(p => given(p) !== null);
-    this.#findTimes();
-  }
-
-  /** Times at which removed parts fade (disassembly) and parts without a transfer appear (assembly). */
-  #findTimes() {
-    const {disassembly, assembly} = this.lines;
-    const endOf = new Map(disassembly.steps.map(s => [s.step, s.end]));
-    this.goneAt = this.parts.map((_, i) => {
-      const s = this.leftIn[i];
-      return s >= 0 ? endOf.get(this.plan.disassembly[s]) ?? Infinity : Infinity;
-    });
-    this.comesAt = new Array(this.parts.length).fill(-Infinity);
-    const seen = new Set();
-    for (const step of assembly.steps)
-      for (const i of step.parts) {
-        if (!seen.has(i) && !step.step.transfer) this.comesAt[i] = step.begin;
-        seen.add(i);
-      }
   }
 
   /** 1: visible, 0: faded out; `fading`: as chosen by the user. */
   presence(i, mode, time, fading) {
     if (!fading) return 1;
-    if (mode === 'disassembly') return 1 - Math.min(1, Math.max(0, (time - this.goneAt[i]) / FADE));
-    return Math.min(1, Math.max(0, (time - this.comesAt[i] + FADE) / FADE));
+    if (mode === 'disassembly') return 1 - Math.min(1, Math.max(0, (time - this.view.gone[i]) / FADE));
+    return Math.min(1, Math.max(0, (time - this.view.comes[i] + FADE) / FADE));
   }
 
   poseOf(i, mode, time, out) {
@@ -75,25 +50,18 @@ export class Model {
       const own = given(this.parts[i].source);
       if (own !== null) return own;
     }
-    return this.rank[i] < 0 ? STAYS : byOrder(this.rank[i], this.leavers);
+    const rank = this.view.rank[i];
+    return rank === null ? STAYS : byOrder(rank, this.view.leavers);
   }
 
-  /**
-   * Displacement of an unsolved part's best pose from its last pose in the plan: `length` by which its centre has moved (input
-   * units), `angle` (degrees), and whether it moved at all.
-   */
-  furthest(i) {
-    const {best_pose: best} = this.unsolved.get(i), {center} = this.parts[i];
-    const left = this.poseOf(i, 'disassembly', this.lines.disassembly.duration, new Float64Array(7));
-    const a = transform([0, 0, 0], left, 0, center), b = transform([0, 0, 0], best, 0, center);
-    const length = Math.hypot(...a.map((x, k) => b[k] - x));
-    const cosine = Math.abs(left[3] * best[3] + left[4] * best[4] + left[5] * best[5] + left[6] * best[6]);
-    const angle = 2 * Math.acos(Math.min(1, cosine)) * 180 / Math.PI;
-    return {length, angle, moved: length > 1e-9 * this.size || angle > 1e-3};
+  /** The step of the plan after which this part is out, null if it stays. */
+  outIn(i) {
+    const step = this.view.out[i];
+    return step === null ? null : this.plan.disassembly[step];
   }
 
-  /** Index of the step that finally removes this part, -1 if none does. */
+  /** Its index among the steps that are shown, -1 if none takes it out. */
   stepOf(i) {
-    return this.leftIn[i] < 0 ? -1 : this.lines.disassembly.steps.findIndex(s => s.step === this.plan.disassembly[this.leftIn[i]]);
+    return this.lines.disassembly.steps.findIndex(s => s.step === this.outIn(i));
   }
 }

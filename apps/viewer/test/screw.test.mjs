@@ -1,7 +1,7 @@
 // Compares the constant screw motion between two poses with the closed form, on random screws.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {screwInterpolate, screwTravel, transform} from '../src/plan/screw.js';
+import {screwInterpolate, transform} from '../src/plan/screw.js';
 import {afterScrew, distance, placed, randomNumbers, screwed} from './cases.mjs';
 
 const at = (a, b, u) => Array.from(screwInterpolate(new Float64Array(7), a, 0, b, 0, u));
@@ -49,21 +49,4 @@ test('a motion cut in two is the same motion', () => {
 test('poses in one array are read where they stand', () => {
   const r = randomNumbers(5), poses = [r.pose(3), r.pose(3), r.pose(3)], flat = Float64Array.from(poses.flat());
   for (const u of [0, 0.3, 1]) assert.deepEqual(Array.from(screwInterpolate(new Float64Array(7), flat, 7, flat, 14, u)), at(poses[1], poses[2], u));
-});
-
-test('screwTravel() is an upper bound, and the length itself for shifts', () => {
-  const r = randomNumbers(6);
-  for (let n = 0; n < 200; ++n) {
-    const a = r.pose(5), b = afterScrew(a, r.unit(), r.vector(5), r.between(-3, 3), r.between(-5, 5)), center = r.vector(5), radius = r.between(0, 3);
-    const bound = screwTravel(a, 0, b, 0, center, radius), p = r.unit().map((x, k) => center[k] + x * radius);
-    let length = 0, last = placed(a, p);
-    for (let k = 1; k <= 50; ++k) {
-      const next = placed(at(a, b, k / 50), p);
-      length += distance(last, next);
-      last = next;
-    }
-    assert.ok(length <= bound * (1 + 1e-9), `${length} > ${bound}`);
-    const shift = r.vector(5), moved = [...a.slice(0, 3).map((x, k) => x + shift[k]), ...a.slice(3)];
-    assert.ok(Math.abs(screwTravel(a, 0, moved, 0, center, radius) - Math.hypot(...shift)) < 1e-9);
-  }
 });

@@ -2,7 +2,8 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {byOrder, given, hex} from '../src/plan/colours.js';
-import {clock, listed, number, seconds, share} from '../src/plan/words.js';
+import {clock, listed, number, outcomeTitle, seconds, sentence, share, shareOfSize} from '../src/plan/words.js';
+import {randomNumbers} from './cases.mjs';
 
 const rgb = css => [1, 3, 5].map(i => parseInt(css.slice(i, i + 2), 16));
 
@@ -39,5 +40,19 @@ test('numbers', () => {
   assert.equal(listed(['a']), 'a');
   assert.equal(listed(['a', 'b']), 'a and b');
   assert.equal(listed(['a', 'b', 'c', 'd']), 'a, b and 2 more');
-  assert.equal(share(0.001, {assembly: {scale: 0.1, bbox: [[0, 0, 0], [100, 20, 30]]}}), '0.01 %');
+});
+
+test('a share of the size is the same for a length in input units and in assembly units', () => {
+  const r = randomNumbers(11);
+  for (let n = 0; n < 100; ++n) {
+    const size = 10 ** r.between(-4, 4), plan = {assembly: {scale: 10 / size, bbox: [[0, 0, 0], [size, size / 5, size / 3]]}};
+    assert.equal(shareOfSize(0.026 * size, plan), '2.6 %');
+    assert.equal(share(0.026 * 10, plan), '2.6 %');
+  }
+});
+
+test('every outcome of a plan file has a title', () => {
+  for (const outcome of ['timeout', 'depth_limit', 'exhausted', 'infeasible', 'invalid_start', 'cancelled', 'unsupported', 'crashed'])
+    assert.notEqual(outcomeTitle(outcome), outcome);
+  assert.equal(sentence('it stays'), 'It stays.');
 });

@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -15,19 +14,13 @@
 #include "dismantle/plan_io/base64.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/shading.h"
+#include "page_view.h"
 
 namespace dismantle {
 namespace {
 
 using PageJson = nlohmann::ordered_json;
 static_assert(std::endian::native == std::endian::little, "typed arrays are little-endian on all that run a browser");
-
-template <class Scalar>
-std::string base64_of(const std::vector<Scalar>& values) {
-  std::vector<std::uint8_t> bytes(values.size() * sizeof(Scalar));
-  if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
-  return base64(bytes);
-}
 
 /// Two bytes each if that is enough.
 std::string base64_of_indices(const std::vector<std::uint32_t>& indices, bool wide) {
@@ -110,24 +103,35 @@ PageJson geometry_json(const Plan& plan, const Assembly& assembly) {
   return {{"parts", std::move(parts)}, {"shapes", std::move(shapes)}};
 }
 
-/// Makes JSON safe in a script element, whatever names it has: `<` occurs in strings only.
+/// JSON without blanks between its values, safe in a script element whatever names it has: `<` occurs in strings only.
 std::string for_script(const std::string& json) {
   std::string out;
-  out.reserve(json.size() + json.size() / 64);
-  for (const char c : json) c == '<' ? out += "\\u003c" : out += c;
+  out.reserve(json.size());
+  bool in_string = false, escaped = false;
+  for (const char c : json) {
+    if (!in_string && (c == ' ' || c == '\n')) continue;
+    if (c == '"' && !escaped) in_string = !in_string;
+    escaped = c == '\\' && !escaped;
+    c == '<' ? out += "\\u003c" : out += c;
+  }
   return out;
 }
 
 }  // namespace
 
-std::string to_page(const Plan& plan, const Assembly& assembly, const std::string& page_template) {
+std::string to_page(const Plan& plan, const Assembly& assembly, const std::string& page_template,
+                    const ExplainSettings& settings) {
   const std::string_view mark = "@DISMANTLE_DATA@";
   const std::size_t place = page_template.find(mark);
   if (place == std::string::npos || page_template.find(mark, place + 1) != std::string::npos)
     throw Error("the viewer's template does not have exactly one place for the data");
-  std::string data = "{\"format\":\"dismantle.page\",\"version\":1,\"plan\":" + to_json(plan);
-  data +=
-      ",\"geometry\":" + geometry_json(plan, assembly).dump(-1, ' ', false, PageJson::error_handler_t::replace) + "}";
+  std::string data = "{\"format\":\"dismantle.page\",\"version\":2,\"plan\":" + to_json(plan);
+  const auto add = [&](const char* key, const PageJson& value) {
+    data += key + value.dump(-1, ' ', false, PageJson::error_handler_t::replace);
+  };
+  add(",\"geometry\":", geometry_json(plan, assembly));
+  add(",\"view\":", page_view(plan, assembly, settings));
+  data += "}";
   return page_template.substr(0, place) + for_script(data) + page_template.substr(place + mark.size());
 }
 

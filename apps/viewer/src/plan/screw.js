@@ -87,13 +87,3 @@ export function screwInterpolate(out, a, i, b, j, u) {
   out[0] = tx, out[1] = ty, out[2] = tz;
   return out;
 }
-
-const at = new Float64Array(3), arm = new Float64Array(3);
-/** Upper bound of the distance that any point within `radius` of `center` (assembled) travels from the pose at a[i..] to b[j..]. */
-export function screwTravel(a, i, b, j, center, radius) {
-  twistBetween(a, i, b, j);
-  transform(at, a, i, center);
-  for (let k = 0; k < 3; ++k) at[k] -= a[i + k];
-  cross(arm, w, at);
-  return Math.hypot(v[0] + arm[0], v[1] + arm[1], v[2] + arm[2]) + Math.hypot(w[0], w[1], w[2]) * radius;
-}

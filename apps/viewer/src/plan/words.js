@@ -1,18 +1,20 @@
 // Texts about a plan for the user. Strings are inserted into pages as text, never as markup.
 
 const OUTCOMES = {
-  timeout: ['Time ran out', 'The budget of time or steps was used up. More may help.'],
-  depth_limit: ['Search was cut short', 'It was searched to the depth allowed. Deeper may help.'],
-  exhausted: ['Nothing left to try', 'No state was left to search at this resolution.'],
-  infeasible: ['Proved: it cannot leave', 'No motion of rigid parts separates it from what holds it. The proof is below.'],
-  invalid_start: ['Start is not valid', 'Assembled, it already cuts into another part deeper than was measured.'],
-  cancelled: ['Run was stopped', 'The run was stopped before this part was solved.'],
-  unsupported: ['Not supported', 'The simulator lacks what the planner needs.'],
-  crashed: ['Planner failed', 'A plugin failed on this part.'],
+  timeout: 'Time ran out',
+  depth_limit: 'Search was cut short',
+  exhausted: 'Nothing left to try',
+  infeasible: 'Proved: it cannot leave',
+  invalid_start: 'Start is not valid',
+  cancelled: 'Run was stopped',
+  unsupported: 'Not supported',
+  crashed: 'Planner failed',
 };
 
-export const outcomeTitle = o => OUTCOMES[o]?.[0] ?? String(o);
-export const outcomeMeaning = o => OUTCOMES[o]?.[1] ?? '';
+export const outcomeTitle = o => OUTCOMES[o] ?? String(o);
+
+/** "it stays" as a sentence: "It stays." */
+export const sentence = text => `${text.charAt(0).toUpperCase()}${text.slice(1)}.`;
 
 export const counted = (n, what) => `${n} ${what}${n === 1 ? '' : 's'}`;
 
@@ -30,9 +32,12 @@ export function number(x) {
   return String(Number(x.toPrecision(size >= 100 ? Math.floor(Math.log10(size)) + 1 : 3)));
 }
 
-/** Description of a forced step, in input units. */
-export const forcedWords = ({pair, depth, assembled, at, lower_bound: bound}) =>
-  `${pair[0]} cuts ${bound ? 'at least ' : ''}${number(depth)} units into ${pair[1]} (${number(assembled)} when assembled), at (${at.map(number).join(', ')})`;
+/** A length in input units. */
+export const lengthWords = (length, plan) => `${number(length)} ${plan.assembly.unit ?? 'input units'}`;
+
+/** Description of a forced step. */
+export const forcedWords = ({pair, depth, assembled, at, lower_bound: bound}, plan) =>
+  `${pair[0]} cuts ${bound ? 'at least ' : ''}${lengthWords(depth, plan)} into ${pair[1]} (${number(assembled)} when assembled), at (${at.map(number).join(', ')})`;
 
 export function seconds(s) {
   if (s < 0.0995) return `${number(Number((1000 * s).toPrecision(2)))} ms`;
@@ -42,11 +47,11 @@ export function seconds(s) {
 
 export const clock = s => `${Math.floor(s / 60)}:${String(Math.floor(s % 60)).padStart(2, '0')}`;
 
+/** A length in input units as a share of the assembly's largest edge. */
+export const shareOfSize = (length, plan) => `${number(Number((100 * length / sizeOf(plan)).toPrecision(2)))} %`;
+
 /** A depth in assembly units as a share of the assembly's largest edge. */
-export function share(depth, plan) {
-  const size = sizeOf(plan) * plan.assembly.scale;
-  return `${number(Number((100 * depth / size).toPrecision(2)))} %`;
-}
+export const share = (depth, plan) => shareOfSize(depth / plan.assembly.scale, plan);
 
 export function sizeOf(plan) {
   const box = plan.assembly.bbox;

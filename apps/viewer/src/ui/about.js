@@ -21,7 +21,7 @@ export function makeAbout(app) {
   const objective = objectiveText(plan);
   if (objective) row('objective', objective);
   const box = assembly.bbox;
-  if (box) row('size', box[1].map((x, k) => number(x - box[0][k])).join(' × ') + ' input units');
+  if (box) row('size', box[1].map((x, k) => number(x - box[0][k])).join(' × ') + ` ${assembly.unit ?? 'input units'}`);
   row('units', `${number(assembly.scale)} assembly units per input unit`);
   row('made by', `${plan.generator.name} ${plan.generator.version}, seed ${plan.seed}`);
   row('input', element('code', {}, assembly.sha256));

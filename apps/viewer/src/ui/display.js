@@ -11,7 +11,7 @@ export class Display {
     this.theme = 'auto';
     this.media = matchMedia('(prefers-color-scheme: dark)');
     this.media.addEventListener('change', () => this.apply());
-    this.axis = app.model.parts.every(p => /\.(glb|gltf)$/i.test(p.file)) && app.model.parts.length > 0 ? 'y' : 'z';
+    this.axis = app.model.view.up;
   }
 
   get dark() {

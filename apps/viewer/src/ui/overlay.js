@@ -28,7 +28,7 @@ export function makeOverlay(app) {
     if (!app.best) return;
     const {unsolved} = app.best;
     const blocked = unsolved.blocked_by.length > 0 ? `, blocked by ${unsolved.blocked_by.slice(0, 3).join(', ')}${unsolved.blocked_by.length > 3 ? ' and others' : ''}` : '';
-    banner.replaceChildren(icon('warning'), element('span', {}, model.furthest(app.best.index).moved
+    banner.replaceChildren(icon('warning'), element('span', {}, model.reach.get(app.best.index).moved
       ? `${unsolved.part}: the pose that came furthest${blocked}. Drawn straight, not along a path that was checked.` : `${unsolved.part} did not move${blocked}.`),
       element('button.chip', {type: 'button', onclick: () => app.leaveBest()}, 'Back'));
   }

@@ -7,11 +7,11 @@ export function makePartList(app) {
   const all = element('button.chip', {type: 'button', title: 'Show all parts as they are (shift H)', onclick: () => app.showAll()}, 'Show all');
   const list = element('ul.parts', {'aria-label': 'Parts'});
   const order = model.parts.map(p => p.index).sort((a, b) => {
-    const key = i => model.unsolved.has(i) ? -1 : model.rank[i] < 0 ? 1e9 : model.rank[i];
+    const key = i => model.unsolved.has(i) ? -1 : model.view.rank[i] ?? 1e9;
     return key(a) - key(b) || a - b;
   });
 
-  const stateOf = i => model.unsolved.has(i) ? 'stuck' : model.leftIn[i] >= 0 ? `step ${model.plan.disassembly[model.leftIn[i]].step}` : 'stays';
+  const stateOf = i => model.unsolved.has(i) ? 'stuck' : model.outIn(i) ? `step ${model.outIn(i).step}` : 'stays';
   const rows = new Map();
   for (const i of order) {
     const {name} = model.parts[i];

@@ -1,6 +1,5 @@
 // Parts that did not come out: the attempts, blocking parts and places, furthest pose, proof, and advice.
-import {adviceOn} from '../plan/advice.js';
-import {forcedWords, number, outcomeMeaning, outcomeTitle, seconds, share} from '../plan/words.js';
+import {forcedWords, lengthWords, number, outcomeTitle, seconds, sentence, share, shareOfSize} from '../plan/words.js';
 import {element, icon} from './dom.js';
 
 const TURNED = 0.05;  // degrees; smaller rotations are not reported
@@ -11,13 +10,13 @@ function link(app, name, kind = 'button.chip') {
     onmouseenter: () => app.hover(index), onmouseleave: () => app.hover(-1)}, name);
 }
 
-/** Details of one part: the blocking parts and its furthest pose. */
-function attempt(app, unsolved, alone) {
+/** Details of one part: the blocking parts and its furthest pose. `message`: what the planner said of this part only. */
+function attempt(app, unsolved, alone, message) {
   const {model} = app, index = model.index.get(unsolved.part), {plan} = model;
   const overlaps = plan.assembly.overlaps.filter(o => o.a === unsolved.part || o.b === unsolved.part);
   const row = (name, ...value) => [element('dt', {}, name), element('dd', {}, ...value)];
-  const {length, angle, moved} = model.furthest(index);
-  const far = `${number(length)} input units (${number(Number((100 * length / model.size).toPrecision(2)))} % of the size)`;
+  const {travel, turn_degrees: angle, moved} = model.reach.get(index);
+  const far = `${lengthWords(travel, plan)} (${shareOfSize(travel, plan)} of the size)`;
   const words = moved ? 'Show how far it got' : 'Show what holds it';
   const show = element('button.primary', {type: 'button', 'aria-pressed': 'false',
     onclick: () => app.best?.index === index ? app.leaveBest() : app.showBest(index)}, words);
@@ -29,6 +28,7 @@ function attempt(app, unsolved, alone) {
   });
   return element('section.attempt', {'data-part': unsolved.part},
     alone ? null : link(app, unsolved.part, 'button.title'),
+    message ? element('p.message', {}, message) : null,
     element('dl.facts', {},
       unsolved.attempts ? row('tried', tried(unsolved)) : null,
       row('blocked by', unsolved.blocked_by.length > 0 ? unsolved.blocked_by.map(n => link(app, n)) : 'nothing on record'),
@@ -46,8 +46,7 @@ function tried({planner, attempts, seconds: time, depth}) {
 /** Renders text between backquotes as code. */
 const withCode = text => text.split('`').map((piece, i) => i % 2 === 1 ? element('code', {}, piece) : piece);
 
-function nextSteps(group, plan) {
-  const advice = adviceOn(group, plan);
+function nextSteps({advice}) {
   return advice.length === 0 ? null : element('div.advice', {}, element('strong', {}, 'What you can do'),
     element('ul', {}, advice.map(text => element('li', {}, withCode(text)))));
 }
@@ -63,23 +62,13 @@ function proofs(app, group) {
 const isProof = (app, group, message) => group.some(u => app.model.plan.certificates?.[u.certificate]?.text === message);
 
 /** Parts that share one reason. */
-function card(app, group) {
-  const [{part, outcome, message}] = group, alone = group.length === 1;
+function card(app, reason) {
+  const group = reason.parts.map(({part}) => app.model.unsolved.get(part)), [{part, outcome, message}] = group;
+  const alone = group.length === 1, shared = group.every(u => u.message === message);
   return element('article.card', {}, element('header', {}, icon('warning'),
     alone ? link(app, part, 'button.title') : element('strong.title', {}, `${group.length} parts, one reason`), element('span.pill.bad', {}, outcomeTitle(outcome))),
-  element('p', {}, outcomeMeaning(outcome)), message && !isProof(app, group, message) ? element('p.message', {}, message) : null,
-  proofs(app, group), group.map(u => attempt(app, u, alone)), nextSteps(group, app.model.plan));
-}
-
-/** Attempts with the same outcome and message, ordered by their first attempt. */
-function byReason(unsolved) {
-  const groups = new Map();
-  for (const u of unsolved) {
-    const key = u.message ? `${u.outcome} ${u.message}` : `${u.outcome} of ${u.part}`;
-    if (!groups.has(key)) groups.set(key, []);
-    groups.get(key).push(u);
-  }
-  return [...groups.values()];
+  element('p', {}, sentence(reason.meaning)), shared && message && !isProof(app, group, message) ? element('p.message', {}, message) : null,
+  proofs(app, group), group.map(u => attempt(app, u, alone, shared ? '' : u.message)), nextSteps(reason));
 }
 
 function certificate(app, c) {
@@ -96,17 +85,17 @@ function certificate(app, c) {
 /** Null when there are no problems. */
 export function makeProblems(app) {
   const {plan} = app.model, certificates = Array.isArray(plan.certificates) ? plan.certificates : [];
-  const silent = plan.status === 'partial' ? plan.remaining.filter(n => !app.model.unsolved.has(app.model.index.get(n))) : [];
+  const silent = app.model.view.untried.map(i => app.model.parts[i].name);
   const forced = plan.disassembly.filter(s => s.forced);
   const {excluded} = plan.assembly;
   const count = plan.unsolved.length + certificates.length + excluded.length + forced.length;
   if (count === 0 && plan.status === 'complete') return null;
   const pane = element('div.pane.problems', {},
     plan.unsolved.length > 0 ? element('p.note', {}, 'These parts should have come out and did not. The plan holds for all that did.') : null,
-    byReason(plan.unsolved).map(group => card(app, group)),
+    app.model.view.reasons.map(reason => card(app, reason)),
     forced.map(s => element('article.card', {}, element('header', {}, icon('warning'), element('strong', {}, `Step ${s.step} is forced`)),
       element('p', {}, `${s.moves.map(m => m.part).join(', ')}: no verified path is known. It is taken out where it cuts in least. This step is not verified.`),
-      element('p.bad', {}, forcedWords(s.forced)), s.forced.reason ? element('p.message', {}, s.forced.reason) : null)),
+      element('p.bad', {}, forcedWords(s.forced, plan)), s.forced.reason ? element('p.message', {}, s.forced.reason) : null)),
     certificates.map(c => certificate(app, c)),
     silent.length > 0 ? element('article.card', {}, element('header', {}, element('strong', {}, 'Still together')),
       element('p', {}, silent.length > 1 || plan.unsolved.length > 0 ? 'No failed attempt of these is on record:' : 'Not tried:'),

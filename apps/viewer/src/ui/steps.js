@@ -1,6 +1,6 @@
 // The list of steps: moving parts, search time, penetration. A click seeks to the step.
-import {forcedWords, number, seconds, share} from '../plan/words.js';
 import {verdictRows, verdictsOf} from '../plan/checks.js';
+import {forcedWords, lengthWords, number, seconds, share} from '../plan/words.js';
 import {element, swatch} from './dom.js';
 
 function facts(app, {step}) {
@@ -15,8 +15,8 @@ function facts(app, {step}) {
   if (step.contacts?.length > 0) row('touches', step.contacts.join(', '));
   if (step.after?.length > 0) row('after', `step${step.after.length === 1 ? '' : 's'} ${step.after.join(', ')}`);
   for (const o of step.overlaps ?? [])
-    row('overlap', `${o.pair.join(' and ')}: ${number(o.assembled)} units when assembled, up to ${number(o.depth)} along the way${o.at ? `, at ${o.at.map(number).join(', ')}` : ''}${o.region ? '; only where they overlap when assembled' : ''}`);
-  if (step.forced) row('forced', forcedWords(step.forced));
+    row('overlap', `${o.pair.join(' and ')}: ${lengthWords(o.assembled, plan)} when assembled, up to ${number(o.depth)} along the way${o.at ? `, at ${o.at.map(number).join(', ')}` : ''}${o.region ? '; only where they overlap when assembled' : ''}`);
+  if (step.forced) row('forced', forcedWords(step.forced, plan));
   for (const [name, text] of verdictRows(verdictsOf(plan, step, app.mode))) row(name, text);
   return element('dl.facts', {}, rows);
 }

@@ -1,5 +1,5 @@
 // Play, pause and scrub: the bar below the scene, and a caption for the current step.
-import {clock, counted, listed, share} from '../plan/words.js';
+import {clock, counted, listed, share, shareOfSize} from '../plan/words.js';
 import {element, icon, iconButton} from './dom.js';
 
 const SPEEDS = [0.5, 1, 2, 4, 8];
@@ -85,7 +85,7 @@ export function makeTransport(app) {
     caption.textContent = over ? endOf(app) : captionOf(app, at);
     caption.title = at < 0 ? '' : steps[at].step.moves.map(m => m.part).join(', ');
     const depth = at < 0 ? undefined : steps[at].step.max_penetration;
-    detail.textContent = depth === undefined ? '' : steps[at].step.forced ? `forced: cuts in by ${share(steps[at].step.forced.depth ?? depth, plan)} of the size`
+    detail.textContent = depth === undefined ? '' : steps[at].step.forced ? `forced: cuts in by ${shareOfSize(steps[at].step.forced.depth, plan)} of the size`
       : `cuts in by at most ${share(depth, plan)} of the size`;
     detail.classList.toggle('bad', at >= 0 && Boolean(steps[at].step.forced));
   }

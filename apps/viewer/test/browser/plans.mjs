@@ -6,6 +6,7 @@ import {dirname, join} from 'node:path';
 function run(folder, statuses, ...args) {
   const done = spawnSync(process.env.DISMANTLE, args, {cwd: folder, encoding: 'utf8'});
   if (!statuses.includes(done.status)) throw new Error(`dismantle ${args.join(' ')}: status ${done.status}\n${done.stdout}${done.stderr}`);
+  return done.stdout;
 }
 
 function result(folder, name) {
@@ -34,7 +35,21 @@ export function planBoxes(folder, name, names) {
   return result(folder, name);
 }
 
-/** The same page with its data changed by `change`, for data that the current planners do not write. */
+/** The page of the same plan with `change` made to it, for plans that the current planners do not write. */
+export function changedPlan(folder, sample, name, change) {
+  const {plan} = result(folder, sample);
+  change(plan);
+  mkdirSync(join(folder, name));
+  writeFileSync(join(folder, name, 'plan.json'), JSON.stringify(plan));
+  run(folder, [0], 'view', join(name, 'plan.json'), '--assembly', `${sample}.parts`, '-q');
+  return result(folder, name).file;
+}
+
+/** What `dismantle explain` says of a sample's plan. */
+export const explained = (folder, sample) =>
+  JSON.parse(run(folder, [0], 'explain', join(sample, 'plan.json'), '--format', 'json').trim().split('\n').pop());
+
+/** The same page with its data changed by `change`. */
 export function changed(file, name, change) {
   const html = readFileSync(file, 'utf8'), open = 'id="dismantle-data">';
   const begin = html.indexOf(open) + open.length, end = html.indexOf('</script>', begin);

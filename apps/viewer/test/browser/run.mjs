@@ -6,7 +6,7 @@ import {join} from 'node:path';
 import test, {after, before} from 'node:test';
 import {distance, placed, randomNumbers} from '../cases.mjs';
 import {CHROMIUM, hasChromium, launch, open} from './chromium.mjs';
-import {changed, planBoxes, planSample} from './plans.mjs';
+import {changed, changedPlan, explained, planBoxes, planSample} from './plans.mjs';
 
 if (!hasChromium()) {
   console.log(`skipped: there is no ${CHROMIUM} (Debian: apt-get install chromium)`);
@@ -183,6 +183,9 @@ onPage('a partial plan shows each reason, what was in the way and the best pose'
   const {plan} = closed;
   assert.equal(plan.status, 'partial');
   assert.match(await page.locator('.summary').textContent(), /Partial/);
+  const advice = explained(folder, 'closed_box').left.flatMap(reason => reason.advice), shown = page.locator('.problems .advice li');
+  assert.ok(advice.length > 0);
+  assert.deepEqual((await shown.allTextContents()).sort(), advice.map(text => text.replaceAll('`', '')).sort(), 'the advice of explain');
   for (const u of plan.unsolved) {
     const card = page.locator('article').filter({has: page.locator(`[data-part="${u.part}"]`)}), text = await card.textContent();
     const own = page.locator(`[data-part="${u.part}"].attempt`);
@@ -201,7 +204,7 @@ onPage('a partial plan shows each reason, what was in the way and the best pose'
 
 test('best poses, forced steps and certificates, as plans to come may have them', async () => {
   const pose = [3, -4, 12, Math.cos(0.4), 0, Math.sin(0.4), 0];
-  const file = changed(shelf.file, 'forced.html', ({plan}) => {
+  const file = changedPlan(folder, 'stacked_box', 'forced', plan => {
     const last = plan.disassembly[plan.disassembly.length - 1], stays = plan.remaining[0];
     last.forced = {pair: [last.moves[0].part, stays], depth: 0.4, assembled: 0, at: [0, 0, 0], reason: 'depth_limit'};
     plan.status = 'partial';
@@ -213,7 +216,10 @@ test('best poses, forced steps and certificates, as plans to come may have them'
   const page = await open(browser, file), stays = shelf.plan.remaining[0];
   assert.equal(await page.locator('.steps .pill.bad').count(), 1);
   await page.keyboard.press('End');
-  assert.match(await page.locator('.words .detail').textContent(), /forced/);
+  // 0.4 input units, as a share of the largest edge in input units.
+  const box = shelf.plan.assembly.bbox, deepest = 100 * 0.4 / Math.max(...box[1].map((x, k) => x - box[0][k]));
+  const told = /forced: cuts in by ([\d.]+) % of the size/.exec(await page.locator('.words .detail').textContent());
+  assert.ok(Math.abs(Number(told[1]) - deepest) < 0.01 * deepest, `${told[1]} % for ${deepest} %`);
   await page.getByRole('tab', {name: 'Problems'}).click();
   assert.match(await page.locator('.problems').textContent(), /the budget <i>ended<\/i>.*is forced.*Proof: ring/s);
   await page.getByRole('button', {name: 'Show how far it got'}).click();

@@ -1,0 +1,16 @@
+/// What the page shows of a plan and is computed here, so that page, plan.glb and `explain` cannot disagree.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "dismantle/assembly.h"
+#include "dismantle/plan.h"
+#include "dismantle/plan_io/explain.h"
+
+namespace dismantle {
+
+/// `view` of a page (docs/viewer.md): times, presence, exploded view, reasons and advice.
+/// @throws InputError when the plan names a part that the assembly does not have.
+nlohmann::ordered_json page_view(const Plan& plan, const Assembly& assembly, const ExplainSettings& settings);
+
+}  // namespace dismantle
