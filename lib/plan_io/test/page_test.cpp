@@ -132,9 +132,9 @@ TEST(Page, HoldsThePlanWordForWord) {
   EXPECT_EQ(subject.data()["plan"], PageJson::parse(to_json(subject.plan)));
 }
 
-TEST(Page, NamesCannotLeaveTheScript) {
-  for (const std::string name :
-       {"</script><script>alert(1)</script>", "<!--<script>", "<img src=x onerror=alert(1)>", "a&lt;b", "\"\\u003c"}) {
+TEST(Page, NamesStayAsTheyAreAndCannotLeaveTheScript) {
+  for (const std::string name : {"</script><script>alert(1)</script>", "<!--<script>", "<img src=x onerror=alert(1)>",
+                                 "a&lt;b", "\"\\u003c", "two  blanks", "ends with \\", "a\" \\\" b : , \\", "a\n b"}) {
     Subject subject;
     subject.add(name, page_box({0, 0, 0}, {1, 1, 1}));
     EXPECT_EQ(subject.data()["plan"]["assembly"]["parts"][0]["name"], name);

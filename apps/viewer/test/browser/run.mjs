@@ -44,6 +44,10 @@ function onPage(title, file, body, options) {
   });
 }
 
+/** Waits until a part is drawn at a pose. */
+const arrives = (page, part, pose) => page.waitForFunction(
+  ([n, goal]) => Math.hypot(...window.dismantle.shownPoint(n, [1, 2, 3]).map((x, k) => x - goal[k])) < 1e-6, [part, placed(pose, [1, 2, 3])]);
+
 /** Compares the drawn pose of each part with plan.json, at all poses of some steps. */
 async function comparePoses(page, plan, mode) {
   const r = randomNumbers(9), steps = mode === 'disassembly' ? plan.disassembly : plan.assembly_steps, box = plan.assembly.bbox;
@@ -195,8 +199,7 @@ onPage('a partial plan shows each reason, what was in the way and the best pose'
     const moved = distance(placed(u.best_pose, [1, 2, 3]), [1, 2, 3]) > 1e-3;
     await own.getByRole('button', {name: moved ? 'Show how far it got' : 'Show what holds it'}).click();
     assert.equal((await page.evaluate('window.dismantle.state()')).best, u.part);
-    await page.waitForTimeout(2500);
-    assert.ok(distance(await page.evaluate(n => window.dismantle.shownPoint(n, [1, 2, 3]), u.part), placed(u.best_pose, [1, 2, 3])) < 1e-6);
+    await arrives(page, u.part, u.best_pose);
     await page.keyboard.press('Escape');
     assert.equal((await page.evaluate('window.dismantle.state()')).best, null);
   }
@@ -223,7 +226,7 @@ test('best poses, forced steps and certificates, as plans to come may have them'
   await page.getByRole('tab', {name: 'Problems'}).click();
   assert.match(await page.locator('.problems').textContent(), /the budget <i>ended<\/i>.*is forced.*Proof: ring/s);
   await page.getByRole('button', {name: 'Show how far it got'}).click();
-  await page.waitForFunction(([n, goal]) => Math.hypot(...window.dismantle.shownPoint(n, [1, 2, 3]).map((x, k) => x - goal[k])) < 1e-6, [stays, placed(pose, [1, 2, 3])]);
+  await arrives(page, stays, pose);
   // The card shows attempts, blocking places, proof and advice; the scene shows the places as dots.
   assert.match(await page.locator('article').filter({has: page.locator(`[data-part="${stays}"]`)}).textContent(),
     /Proof \(ring\): it is <b>closed<\/b>.*2 searches by guided, 3 s, to depth 4.*at \(1, 2, 3\).*What you can do.*--path-timeout/s);
