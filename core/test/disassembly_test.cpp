@@ -52,7 +52,8 @@ DisassemblyStep any_step(const Disassembly& done, Rng& rng) {
       if (rng.below(2) == 0) step.parts.push_back(id);
   }
   step.placement = rng.below(4) == 0;
-  if (!step.placement && step.parts.size() > 1 && rng.below(3) == 0) step.released = step.parts[rng.below(step.parts.size())];
+  if (!step.placement && step.parts.size() > 1 && rng.below(3) == 0)
+    step.released = step.parts[rng.below(step.parts.size())];
   Trace path(2);
   for (const PartId id : step.parts) {
     path[0].push_back(done.pose(id));
@@ -95,7 +96,9 @@ TEST(Disassembly, KnowsGroupsAndPosesAfterEachStep) {
           EXPECT_EQ(done.pose(id, k), known.pose[id]);
           EXPECT_EQ(follower.pose(id, k), known.pose[id]);
           const std::size_t group = done.group(id, k);
-          if (group != Disassembly::kAbsent) EXPECT_TRUE(known.groups.at(group).contains(id));
+          if (group != Disassembly::kAbsent) {
+            EXPECT_TRUE(known.groups.at(group).contains(id));
+          }
         }
       }
       const Replayed now(done, start_groups, done.steps().size());

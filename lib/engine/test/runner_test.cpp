@@ -132,7 +132,10 @@ TEST(Run, TheSeedIsThatOfTheOptions) {
 TEST(Run, EachStepIsHandedOnAsItIsDone) {
   std::vector<std::size_t> seen;
   RunContext context;
-  const auto keep = [&](const Plan& plan) {
+  const Assembly assembly = fake::tube_with_blocks(3);
+  const auto keep = [&](const Disassembly& so_far, const DisassemblyStep& newest) {
+    EXPECT_EQ(&newest, &so_far.steps().back());
+    const Plan plan = plan_of(so_far, assembly, RunOptions{});
     seen.push_back(plan.disassembly.size());
     EXPECT_EQ(plan.assembly_steps.size(), plan.disassembly.size());
     EXPECT_EQ(plan.status == PlanStatus::complete, plan.disassembly.size() == 3);
@@ -143,7 +146,7 @@ TEST(Run, EachStepIsHandedOnAsItIsDone) {
     if (level == LogLevel::error) errors.emplace_back(text);
   };
   const RunResult r =
-      run(fake::tube_with_blocks(3), fake::setup(fake::push, std::make_shared<InTurn>()), RunOptions{}, context, keep);
+      run(assembly, fake::setup(fake::push, std::make_shared<InTurn>()), RunOptions{}, context, keep);
   EXPECT_EQ(r.outcome, Outcome::solved);
   EXPECT_EQ(seen, (std::vector<std::size_t>{1, 2, 3}));
   ASSERT_EQ(errors.size(), 1u);
@@ -154,8 +157,8 @@ TEST(Run, CancellationKeepsTheStepsDone) {
   for (const unsigned threads : {1u, 3u}) {
     RunContext context;
     context.threads = threads;
-    const auto stop_after_two = [&](const Plan& plan) {
-      if (plan.disassembly.size() == 2) context.cancel.cancel();
+    const auto stop_after_two = [&](const Disassembly& so_far, const DisassemblyStep& /*newest*/) {
+      if (so_far.steps().size() == 2) context.cancel.cancel();
     };
     const RunResult r = run(fake::tube_with_blocks(4), fake::setup(fake::push, std::make_shared<InTurn>()),
                             RunOptions{}, context, stop_after_two);
