@@ -179,7 +179,8 @@ class Run {
     if (RequiringOracle::is_needed(setup_.objective))
       requiring_.emplace(assembly_, setup_.objective, recorder_.disassembly(), oracle_);
     PathOracle& asked = requiring_ ? static_cast<PathOracle&>(*requiring_) : oracle_;
-    if (context_.should_stop())
+    // A run whose time is up still forces steps, in the overtime that is kept for them.
+    if (context_.cancel.cancelled() || (context_.should_stop() && oracle_.forcing() == nullptr))
       sequence_.outcome = why_stopped(context_);
     else if (only_one())
       sequence_ = plan_one(assembly_, part_named(assembly_, options_.only_part), asked, recorder_, context_);

@@ -126,7 +126,7 @@ class Links final : public SequenceObserver {
     running_ = k;
     const SequenceQuery query{query_.assembly, groups, query_.constraints, query_.objective, said_};
     const SequenceResult result = planners_[k]->plan(query, oracle, *this, own);
-    if (k == 0 || !is_success(result.outcome)) all_.outcome = result.outcome;
+    if (all_.outcome == Outcome::crashed) all_.outcome = result.outcome;  // that of the first planner on the whole
     for (const auto& [name, count] : result.counts) all_.counts[name] += count;
     for (const Certificate* proof : result.proofs) state(proof);
     for (const Unsolved& u : result.unsolved) {
@@ -173,11 +173,11 @@ class Links final : public SequenceObserver {
     for (const std::vector<PartId>& group : disassembly_.groups())
       if (&group == &disassembly_.groups().front() || group.size() > 1)
         all_.remaining.insert(all_.remaining.end(), group.begin(), group.end());
-    if (left.empty()) {
-      all_.outcome = Outcome::solved;
-      return all_;
-    }
-    if (is_success(all_.outcome)) all_.outcome = Outcome::exhausted;
+    const bool forced = std::any_of(all_.removals.begin(), all_.removals.end(),
+                                    [](const Removal& removal) { return removal.attempt->forced != nullptr; });
+    if (left.empty() && !forced) all_.outcome = Outcome::solved;
+    if (!left.empty() && is_success(all_.outcome)) all_.outcome = Outcome::exhausted;
+    if (!left.empty() && context_.cancel.cancelled()) all_.outcome = Outcome::cancelled;
     for (const Unsolved& u : said_)
       if (std::any_of(left.begin(), left.end(), [&](const auto& group) { return contains(group, u.part); }))
         all_.unsolved.push_back(u);
