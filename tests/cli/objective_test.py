@@ -1,0 +1,76 @@
+"""Step checks: the objective of a plan, what is shown of it, and that verify judges again."""
+import json
+
+from program import CliTest
+
+
+class Objective(CliTest):
+    QUICK = ("--sequence-planner", "ndbg", "--set", "run.force=off", "--set", "immobility.provers=[]", "--set", "layout.enabled=false")
+
+    def setUp(self):
+        super().setUp()
+        self.run_program("sample", "machine", "-o", "machine", "--set", "parts=8", status=0)
+
+    def plan_with(self, objective, folder, *more):
+        return self.run_program("plan", "machine", "-o", folder, *self.QUICK, "--set", "objective=" + objective, *more)
+
+    def read_plan(self, folder):
+        return json.loads(self.read(folder, "plan.json"))
+
+    def changed(self, folder, change):
+        plan = self.read_plan(folder)
+        change(plan)
+        self.write("changed/plan.json", json.dumps(plan))
+        return self.run_program("verify", "changed/plan.json", "--assembly", "machine", "--format", "json")
+
+    def test_verdicts_are_stated_shown_and_judged_again(self):
+        done = self.plan_with("[{type: directions, weight: 2, angle: 0.2}, identical_parts]", "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("objective: ", done.stdout)
+        plan = self.read_plan("out")
+        checks = plan["objective"]["checks"]
+        self.assertEqual([(c["type"], c["weight"]) for c in checks], [("directions", 2), ("identical_parts", 1)])
+        self.assertEqual(checks[0]["parameters"], {"angle": 0.2})
+        for k, check in enumerate(checks):
+            self.assertAlmostEqual(check["cost"], sum(step["checks"][k]["cost"] for step in plan["disassembly"]))
+        self.assertAlmostEqual(plan["objective"]["cost"], 2 * checks[0]["cost"] + checks[1]["cost"])
+        again = self.run_program("verify", "out/plan.json", "--assembly", "machine", "--format", "json", status=0)
+        self.assertEqual(self.result_of(again)["verdicts"], 2 * len(plan["disassembly"]))
+        self.run_program("export", "out/plan.json", "--format", "markdown", "-o", "steps.md", status=0)
+        self.assertIn("objective: ", self.read("steps.md"))
+        resolved = self.run_program("plan", "machine", "-o", "again", "-c", "out/resolved.yaml", status=0)
+        self.assertIn("objective: ", resolved.stdout)
+        strip = lambda p: [(s["moves"], s["checks"]) for s in p["disassembly"]]
+        self.assertEqual(strip(plan), strip(self.read_plan("again")))
+
+    def test_a_verdict_that_differs_makes_the_plan_invalid(self):
+        self.plan_with("[directions]", "out")
+        def cheaper(plan):
+            plan["disassembly"][0]["checks"][0]["cost"] += 1
+            plan["objective"]["checks"][0]["cost"] += 1
+            plan["objective"]["cost"] += 1
+        done = self.changed("out", cheaper)
+        self.assertEqual(done.returncode, 1)
+        problems = self.result_of(done)["problems"]
+        self.assertEqual([p["step"] for p in problems], [1])
+        self.assertIn("'directions': the plan says that it costs", problems[0]["message"])
+
+    def test_a_check_that_is_not_there_is_not_checked_here(self):
+        self.plan_with("[directions]", "out")
+        def foreign(plan):
+            for place in [plan["objective"], *plan["disassembly"]]:
+                place["checks"][0]["type"] = "acme.elsewhere"
+        done = self.changed("out", foreign)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("not checked here: the verdicts of 'acme.elsewhere'", done.stderr)
+        self.assertEqual(len(self.result_of(done)["not_checked"]), 1)
+
+    def test_without_an_objective_the_plan_says_nothing_of_it(self):
+        self.run_program("plan", "machine", "-o", "out", *self.QUICK, status=0)
+        self.assertNotIn("objective", self.read("out", "plan.json"))
+        self.assertNotIn('"checks"', self.read("out", "plan.json"))
+
+    def test_what_is_wrong_with_an_objective(self):
+        self.write("bad.yaml", "schema: 1\nobjective: [{type: direction, weight: -1}]\n")
+        self.assert_fails(2, "bad.yaml:2:20: error: unknown step_check 'direction'; did you mean 'directions'?",
+                          "plan", "machine", "-o", "out", "-c", "bad.yaml")
