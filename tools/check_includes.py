@@ -4,14 +4,14 @@
 - core <- process; core <- parallel <- geometry <- verification <- preparation, plan_io <- book, engine <- host <- apps, bench: no #include against the arrows;
 - a plugin includes core, geometry, the plugin sdk and the shared libraries of its kind (folders without a plugin: KIND/common and
   others that build a library), an importer also process; never another plugin;
-- core has at most 1900 lines of code (comments and empty lines are free), a file 400, a class 40 methods (a rough count of the declarations in its body)."""
+- core has at most 2500 lines of code (comments and empty lines are free), a file 400, a class 40 methods (a rough count of the declarations in its body)."""
 import argparse
 import os
 import re
 import sys
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
-CORE_MAX_LINES = 1900
+CORE_MAX_LINES = 2500
 FILE_MAX_LINES = 400
 CLASS_MAX_METHODS = 40
 FOLDERS = ("core", "lib", "plugins", "simulators", "planners", "apps", "tests")
