@@ -39,10 +39,10 @@ Recorder::Recorder(const Assembly& assembly, const Oracle& oracle, const Plannin
       disassembly_(options.start.empty() ? Disassembly(assembly.parts.size())
                                          : Disassembly(assembly.parts.size(), options.start)) {}
 
-void Recorder::removed(const Removal& removal, std::size_t /*parts_left*/) {
+void Recorder::record(const Removal& removal, const DisassemblyStep* earlier) {
   if (!problem_.empty()) throw std::logic_error(problem_);  // the planner ignored an earlier error
   try {
-    record(removal);
+    add(removal, earlier);
   } catch (const std::logic_error& e) {
     problem_ = e.what();
     throw;
@@ -55,10 +55,16 @@ void Recorder::removed(const Removal& removal, std::size_t /*parts_left*/) {
   }
 }
 
-void Recorder::record(const Removal& removal) {
+void Recorder::add(const Removal& removal, const DisassemblyStep* earlier) {
   check_question(removal);
   check_constraints(removal);
   DisassemblyStep step = to_step(removal);
+  if (earlier != nullptr) {
+    step.seconds = earlier->seconds;
+    step.depth = earlier->depth;
+    step.planner = earlier->planner;
+    step.contacts = earlier->contacts;
+  }
   if (continues_last(step)) {
     step = joined(disassembly_.steps().back(), std::move(step));
     disassembly_.pop();

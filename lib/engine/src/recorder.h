@@ -20,14 +20,17 @@ class Recorder final : public SequenceObserver {
   /// Appends one step. If the last step was a placement of the same parts, extends it instead: the plan shows one
   /// motion. @throws std::logic_error with the problem of the removal, which stops the sequence planner; nothing has
   /// changed then.
-  void removed(const Removal& removal, std::size_t parts_left) override;
+  void removed(const Removal& removal, std::size_t /*parts_left*/) override { record(removal, nullptr); }
+  /// The same for a step that was planned before: what its search has found out stays as it was.
+  void repeated(const Removal& removal, const DisassemblyStep& earlier) { record(removal, &earlier); }
 
   const Disassembly& disassembly() const { return disassembly_; }
   /// The first problem of a removal; empty: none.
   const std::string& problem() const { return problem_; }
 
  private:
-  void record(const Removal& removal);
+  void record(const Removal& removal, const DisassemblyStep* earlier);
+  void add(const Removal& removal, const DisassemblyStep* earlier);
   DisassemblyStep to_step(const Removal& removal) const;
   void check_question(const Removal& removal) const;
   void check_constraints(const Removal& removal) const;
