@@ -72,6 +72,7 @@ int check(const Check& options) {
   Console console(options.console);
   Registry registry;
   const RunConfig config = load_config(options.config.source(), registry);
+  for (const auto& warning : config.warnings) console.warning(warning);
   warn_of_problems(registry, console);
   RunContext context = context_of(config.run, console);
   context.on_log = nullptr;  // the findings contain everything

@@ -76,6 +76,7 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
   watch_for_crashes(nullptr);  // plugins run code while they are loaded
   const RunConfig config = load_config(options.config.source(), registry);
   watch_for_crashes(&registry);
+  for (const auto& warning : config.warnings) console.warning(warning);
   warn_of_problems(registry, console);
   const PlanningSetup setup = planning_setup_of(config, registry);
   RunContext context = context_of(config.run, console);

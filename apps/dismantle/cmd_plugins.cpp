@@ -64,7 +64,7 @@ int describe(const Plugins& options) {
   if (options.format == "markdown")
     out = describe_markdown(type, registry);
   else if (options.format == "json")
-    out = describe_json(type);
+    out = describe_json(type, registry);
   else
     out = describe_text(type, registry);
   if (out.empty() || out.back() != '\n') out += '\n';

@@ -23,6 +23,7 @@ int prepare(const Prepare& options) {
   Console console(options.console);
   Registry registry;
   const RunConfig config = load_config(options.config.source(), registry);
+  for (const auto& warning : config.warnings) console.warning(warning);
   warn_of_problems(registry, console);
   // The output meshes would be parts of the next run, or replace the input.
   if (std::error_code error; std::filesystem::equivalent(options.input, options.folder, error))

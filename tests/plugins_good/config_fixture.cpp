@@ -49,6 +49,8 @@ enum class Motion { translation, rotation, automatic };
 struct BfsParams {
   Motion motion = Motion::automatic;
   double similarity_translation = 0.05;
+  double lean = 0.5;
+  Motion last = Motion::rotation;
   static void describe(Schema<BfsParams>& s) {
     s.add_choice<Motion>("motion", &BfsParams::motion,
                          {{"translation", Motion::translation, "Six actions."},
@@ -57,6 +59,8 @@ struct BfsParams {
                          "Which motions are tried.");
     s.add("similarity_translation", &BfsParams::similarity_translation,
           {.unit = "assembly units", .min = 0, .doc = "States closer than this are the same."});
+    s.advanced("lean", &BfsParams::lean, {0, 1});
+    s.advanced("last", &BfsParams::last, {{"translation", Motion::translation}, {"rotation", Motion::rotation}});
   }
 };
 
@@ -87,7 +91,9 @@ class NoProof final : public ImmobilityProver {
 
 struct RingParams {
   std::int64_t max_rings = 2;
+  unsigned heights = 24;
   static void describe(Schema<RingParams>& s) {
+    s.advanced("heights", &RingParams::heights, {1});
     s.add("max_rings", &RingParams::max_rings, {.unit = "1", .min = 1, .doc = "Rings tried."});
   }
 };
@@ -115,7 +121,9 @@ struct RandomParams {
 struct Child {
   PluginRef<PathPlanner> plugin;
   std::int64_t after = 0;
+  double share = 1;
   static void describe(Schema<Child>& s) {
+    s.advanced("share", &Child::share, {0, 1});
     s.add("after", &Child::after, {.unit = "1", .min = 0, .doc = "Steps before it begins."});
   }
 };
@@ -124,7 +132,9 @@ struct TeamParams {
   std::vector<Child> of;
   PluginRef<PathPlanner> last{"bfs"};
   bool fair = true;
+  PluginRef<PathPlanner> judge{"t_rrt"};
   static void describe(Schema<TeamParams>& s) {
+    s.advanced("judge", &TeamParams::judge);
     s.add("of", &TeamParams::of, {.doc = "Who takes part."});
     s.add("last", &TeamParams::last, {.doc = "Who comes last."});
     s.add("fair", &TeamParams::fair, {.doc = "All alike."});

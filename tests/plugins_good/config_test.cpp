@@ -34,7 +34,7 @@ simulator: {type: sdf_penalty, contact_stiffness: 2.0e6, time_step: 1.0e-3}
 path_planner: {type: t_rrt, goal_bias: 0.2, max_nodes: 77, greedy: true, note: "a: b # c"}
 sequence_planner: {type: random, attempts: 9}
 run: {seed: 5, threads: 2, path_timeout: 1, path_steps: 1000, timeout: 2.5}
-verify: {max_penetration: 0.001, tests: 5000, trial_share: 0.5}
+verify: {max_penetration: 0.001, advanced: {tests: 5000, trial_share: 0.5}}
 )");
   EXPECT_EQ(config.assembly.subdivide, 0.25);
   EXPECT_FALSE(config.assembly.drop_duplicates);

@@ -22,15 +22,20 @@ TEST_F(Describe, EveryParameterInEveryFormat) {
   for (const char* id : {"t_rrt", "bfs", "sdf_penalty", "random"}) {
     const RegisteredType& t = type(id);
     const std::string text = describe_text(t, registry_), markdown = describe_markdown(t, registry_);
-    const Json json = Json::parse(describe_json(t));
-    ASSERT_EQ(json["parameters"].size(), t.type.params.size());
-    for (std::size_t i = 0; i < t.type.params.size(); ++i) {
-      const ParamSpec& spec = t.type.params[i];
-      EXPECT_NE(text.find("  " + spec.name + " = " + to_text(spec.fallback)), std::string::npos) << text;
-      EXPECT_NE(markdown.find("| `" + spec.name + "` |"), std::string::npos) << markdown;
-      EXPECT_EQ(json["parameters"][i]["name"], spec.name);
-      EXPECT_EQ(json["parameters"][i]["doc"], spec.doc);
-      EXPECT_EQ(json["parameters"][i].contains("min"), spec.min.has_value());
+    const Json json = Json::parse(describe_json(t, registry_));
+    ASSERT_EQ(json["parameters"].size() + json["advanced"].size(), t.type.params.size());
+    std::size_t declared = 0, advanced = 0;
+    for (const ParamSpec& spec : t.type.params) {
+      const Json& described = spec.advanced ? json["advanced"][advanced++] : json["parameters"][declared++];
+      const std::size_t place = text.find("\n  " + spec.name + " = " + to_text(spec.fallback));
+      ASSERT_NE(place, std::string::npos) << text;
+      EXPECT_EQ(place > text.find("\nAdvanced parameters"), spec.advanced) << text;
+      const std::string row = "| `" + spec.name + "` |";
+      EXPECT_EQ(markdown.find(row) != std::string::npos, !spec.advanced) << markdown;
+      EXPECT_EQ(describe_advanced_markdown(registry_).find(row) != std::string::npos, spec.advanced) << row;
+      EXPECT_EQ(described["name"], spec.name);
+      EXPECT_EQ(described["doc"], spec.doc);
+      EXPECT_EQ(described.contains("min"), spec.min.has_value());
     }
   }
 }
@@ -67,6 +72,13 @@ TEST_F(Describe, JsonSchema) {
   EXPECT_EQ(planners[6]["properties"]["type"]["const"], "t_rrt");
   EXPECT_EQ(planners[6]["required"], Json::array({"type"}));
   EXPECT_EQ(planners[6]["properties"]["range"]["exclusiveMinimum"], 0.0);
+  EXPECT_FALSE(planners[0]["properties"].contains("lean"));
+  EXPECT_EQ(planners[0]["properties"]["advanced"]["properties"]["lean"]["maximum"], 1.0);
+  EXPECT_EQ(planners[0]["properties"]["advanced"]["additionalProperties"], false);
+  EXPECT_FALSE(planners[6]["properties"].contains("advanced"));
+  const Json& verify = schema["properties"]["verify"]["properties"];
+  EXPECT_FALSE(verify.contains("tests"));
+  EXPECT_EQ(verify["advanced"]["properties"]["tests"]["type"], "integer");
 }
 
 TEST_F(Describe, JsonSchemaOfPluginsThatHoldOthers) {
@@ -79,6 +91,8 @@ TEST_F(Describe, JsonSchemaOfPluginsThatHoldOthers) {
   const Json& held = schema["$defs"]["team.of"]["oneOf"];
   ASSERT_EQ(held.size(), 8u);
   for (const Json& alternative : held) EXPECT_TRUE(alternative["properties"].contains("after"));
+  // Those of the item and those of its type are keys of one map.
+  EXPECT_EQ(held[0]["properties"]["advanced"]["properties"].size(), 3u) << held[0];
   EXPECT_EQ(held[7]["properties"]["of"]["anyOf"][0]["items"]["anyOf"][1]["$ref"],
             "#/$defs/team.of");  // a team in a team
   EXPECT_FALSE(schema["$defs"]["team.last"]["oneOf"][0]["properties"].contains("after"));
@@ -91,9 +105,10 @@ TEST_F(Describe, APresetShowsWhatItStandsFor) {
                            "      - type: t_rrt\n        after: 7\n", "of = [bfs, t_rrt]   (list of path_planner)",
                            "of[].after = 0   (integer, >= 0)"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
-  const Json json = Json::parse(describe_json(type("duo")));
+  const Json json = Json::parse(describe_json(type("duo"), registry_));
   EXPECT_EQ(json["preset"]["of"], "team");
   EXPECT_EQ(json["parameters"][0]["default"][1]["goal_bias"], 0.25);
+  EXPECT_EQ(json["parameters"][0]["default"][0]["advanced"], Json({{"lean", 0.25}})) << "only what differs";
   EXPECT_NE(describe_text(type("team"), registry_).find("of = none: required"), std::string::npos);
 }
 

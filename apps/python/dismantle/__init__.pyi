@@ -533,6 +533,7 @@ class Parameter:
     min_open: bool = False
     max_open: bool = False
     choices: dict[str, str] = ...
+    advanced: bool = False
 
 class PathPlanner:
     def plan(self, query: PathQuery, context: RunContext) -> Union[PathResult, PathCheck, npt.ArrayLike, None]: ...

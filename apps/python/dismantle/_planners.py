@@ -16,6 +16,7 @@ class Parameter:
 
     default: bool, int, float or str; it says the type. unit: of numbers ('s', 'rad', '1' = dimensionless). min, max: range of
     numbers; min_open, max_open: the bound itself is not allowed. choices: dict of allowed strings, each with its meaning.
+    advanced: only studies change it; in configurations it is a key of the map `advanced`.
     """
 
     name: str
@@ -27,6 +28,7 @@ class Parameter:
     min_open: bool = False
     max_open: bool = False
     choices: dict = field(default_factory=dict)
+    advanced: bool = False
 
 
 class PathPlanner:

@@ -75,7 +75,7 @@ LoadedAssembly load(const std::string& path, const std::string& file, const std:
   const CancelToken cancel;
   return run_interruptible(cancel, py::none(), OnInterrupt::raise, [&] {
     const auto registry = make_registry();
-    const RunConfig config = load_config(config_source(file, overrides), *registry);
+    const RunConfig config = config_of(file, overrides, *registry);
     RunContext context = make_context(cancel, config.run.threads, config.run.timeout);
     ReadOptions options;
     options.max_triangles = config.assembly.max_triangles;
@@ -109,7 +109,7 @@ LoadedAssembly from_parts(std::vector<RawPart> raw, const std::string& source, c
   const CancelToken cancel;
   LoadedAssembly loaded = run_interruptible(cancel, py::none(), OnInterrupt::raise, [&] {
     const auto registry = make_registry();
-    const RunConfig config = load_config(config_source(file, overrides), *registry);
+    const RunConfig config = config_of(file, overrides, *registry);
     RunContext context = make_context(cancel, config.run.threads, config.run.timeout);
     return prepared(raw, source, hash, config, {}, context);
   });

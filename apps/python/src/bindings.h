@@ -55,8 +55,8 @@ struct HeldPlan {
 /// written in Python. Does not need the interpreter's lock.
 std::shared_ptr<Registry> make_registry();
 
-/// `file`: empty for none. `overrides`: KEY=VALUE each.
-ConfigSource config_source(const std::string& file, const std::vector<std::string>& overrides);
+/// `file`: empty for none. `overrides`: KEY=VALUE each. Warnings go to Python's logger.
+RunConfig config_of(const std::string& file, const std::vector<std::string>& overrides, Registry& registry);
 
 /// Sends a log message to Python's logger "dismantle". May be called from any thread.
 void log_to_python(LogLevel level, std::string_view text);

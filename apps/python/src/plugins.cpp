@@ -33,9 +33,9 @@ py::object load_plugin(const std::filesystem::path& file) {
 std::vector<std::string> descriptions(const std::string& id) {
   const auto registry = make_registry();
   std::vector<std::string> out;
-  if (!id.empty()) return {describe_json(registry->find(id))};
+  if (!id.empty()) return {describe_json(registry->find(id), *registry)};
   for (const PluginKind kind : kPluginKinds)
-    for (const RegisteredType* type : registry->types(kind)) out.push_back(describe_json(*type));
+    for (const RegisteredType* type : registry->types(kind)) out.push_back(describe_json(*type, *registry));
   return out;
 }
 
@@ -57,13 +57,6 @@ std::shared_ptr<Registry> make_registry() {
   return registry;
 }
 
-ConfigSource config_source(const std::string& file, const std::vector<std::string>& overrides) {
-  ConfigSource source;
-  if (!file.empty()) source.file = file;
-  source.set = overrides;
-  return source;
-}
-
 void log_to_python(LogLevel level, std::string_view text) {
   if (Py_IsInitialized() == 0) return;
   py::gil_scoped_acquire lock;
@@ -77,6 +70,15 @@ void log_to_python(LogLevel level, std::string_view text) {
   } catch (py::error_already_set& error) {
     error.discard_as_unraisable("logging of dismantle");
   }
+}
+
+RunConfig config_of(const std::string& file, const std::vector<std::string>& overrides, Registry& registry) {
+  ConfigSource source;
+  if (!file.empty()) source.file = file;
+  source.set = overrides;
+  RunConfig config = load_config(source, registry);
+  for (const auto& warning : config.warnings) log_to_python(LogLevel::warning, warning);
+  return config;
 }
 
 RunContext make_context(const CancelToken& cancel, unsigned threads, double timeout) {

@@ -25,6 +25,7 @@ ParamSpec spec_of(const py::handle& declared) {
   spec.max = bound(declared.attr("max"));
   spec.min_open = py::cast<bool>(declared.attr("min_open"));
   spec.max_open = py::cast<bool>(declared.attr("max_open"));
+  spec.advanced = py::cast<bool>(declared.attr("advanced"));
   const py::object fallback = declared.attr("default");
   const py::dict choices = declared.attr("choices");
   for (const auto& [name, doc] : choices)

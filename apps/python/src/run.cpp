@@ -93,7 +93,7 @@ HeldPlan plan(const LoadedAssembly& loaded, const std::string& file, const std::
       cancel, should_stop, OnInterrupt::keep_results,
       [&] {
         const auto registry = make_registry();
-        const RunConfig config = load_config(config_source(file, overrides), *registry);
+        const RunConfig config = config_of(file, overrides, *registry);
         const auto assembly = assembly_for(loaded, config);
         const PlanningSetup setup = planning_setup_of(config, *registry);
         RunContext context = make_context(cancel, config.run.threads, config.run.timeout);
@@ -201,7 +201,7 @@ void bind_run(py::module_& m) {
   m.def("_resolved", [](const std::string& file, const std::vector<std::string>& overrides, const std::string& folder) {
     py::gil_scoped_release release;
     const auto registry = make_registry();
-    return resolved_yaml(load_config(config_source(file, overrides), *registry), *registry, folder);
+    return resolved_yaml(config_of(file, overrides, *registry), *registry, folder);
   });
 }
 

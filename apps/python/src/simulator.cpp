@@ -21,14 +21,23 @@ class HeldSimulator {
   HeldSimulator(const std::string& id, const py::dict& parameters) : registry_(make_registry()), id_(id) {
     const RegisteredType& type = registry_->find(PluginKind::simulator, id);
     ParamSet values;
-    for (const auto& [key, value] : parameters) {
-      const auto name = py::cast<std::string>(key);
-      const auto spec =
-          std::find_if(type.type.params.begin(), type.type.params.end(), [&](const auto& s) { return s.name == name; });
-      if (spec == type.type.params.end())
-        throw py::value_error(fmt::format("simulator '{}' has no parameter '{}'", id, name));
-      values[name] = param_value(*spec, value);
-    }
+    const auto take = [&](const py::dict& given, const std::string& kind) {
+      for (const auto& [key, value] : given) {
+        const auto name = py::cast<std::string>(key);
+        if (name == "advanced" && kind.empty()) continue;
+        const auto spec = std::find_if(type.type.params.begin(), type.type.params.end(),
+                                       [&](const auto& s) { return s.name == name && (kind.empty() || s.advanced); });
+        if (spec == type.type.params.end())
+          throw py::value_error(fmt::format("simulator '{}' has no {}parameter '{}'", id, kind, name));
+        if (spec->advanced && kind.empty())
+          log_to_python(
+              LogLevel::warning,
+              fmt::format("'{0}' is an advanced parameter: write parameters={{'advanced': {{'{0}': ...}}}}", name));
+        values[name] = param_value(*spec, value);
+      }
+    };
+    take(parameters, "");
+    if (parameters.contains("advanced")) take(parameters["advanced"], "advanced ");
     simulator_ = registry_->create<Simulator>(id, values);
   }
   const std::string& id() const { return id_; }
@@ -109,7 +118,8 @@ void bind_simulator(py::module_& m) {
   py::class_<HeldSimulator, std::shared_ptr<HeldSimulator>>(m, "Simulator", "A simulator plugin.")
       .def(py::init<const std::string&, const py::dict&>(), py::arg("id") = "sdf_penalty",
            py::arg("parameters") = py::dict(),
-           "Makes the simulator of that id; parameters that are not given have their defaults.")
+           "Makes the simulator of that id; parameters that are not given have their defaults, advanced ones are in a "
+           "dict 'advanced'.")
       .def_property_readonly("id", &HeldSimulator::id, "Id of the plugin.")
       .def_property_readonly("capabilities", &HeldSimulator::capabilities, "Capabilities.")
       .def("world", &HeldSimulator::world, py::arg("assembly"), py::arg("moving"), py::arg("fixed") = py::none(),

@@ -5,7 +5,8 @@ import dismantle
 
 
 @dismantle.path_planner("test.lines", [dismantle.Parameter("directions", 60, "Directions that are tried.", min=6),
-                                       dismantle.Parameter("step", 0.05, "Distance of checks.", unit="radii", min=0, max=1, min_open=True),
+                                       dismantle.Parameter("step", 0.05, "Distance of checks.", unit="radii", min=0, max=1, min_open=True,
+                                                           advanced=True),
                                        dismantle.Parameter("order", "axes_first", "Which ones first.", choices={
                                            "axes_first": "the axes", "random": "random ones"})], needs=["distance"])
 class Lines(dismantle.PathPlanner):

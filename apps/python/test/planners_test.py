@@ -55,9 +55,17 @@ def test_parameters_are_checked_like_those_of_every_plugin(box, tmp_path):
     with pytest.raises(dismantle.ConfigError) as error:
         dismantle.run(box, config=file)
     assert {d.line for d in error.value.diagnostics} == {4, 5, 6}
-    assert "did you mean 'step'" in str(error.value)
-    file.write_text("schema: 1\npath_planner: {type: portfolio, of: [{type: test.lines, step: 0.1}]}\nsequence_planner: {type: progressive}\n")
+    assert "did you mean 'advanced.step'" in str(error.value)
+    file.write_text("schema: 1\npath_planner: {type: portfolio, of: [{type: test.lines, advanced: {step: 0.1}}]}\nsequence_planner: {type: progressive}\n")
     assert dismantle.run(box, config=file).complete
+
+
+def test_advanced_parameters_are_in_a_map_of_their_own(caplog):
+    written = dismantle.resolved_config({"path_planner": {"type": "test.lines", "advanced": {"step": 0.1}}})
+    assert "  advanced:\n    step: 0.1 " in written and not caplog.records
+    assert "advanced" not in dismantle.resolved_config({"path_planner.type": "test.lines"})
+    assert dismantle.resolved_config(set={"path_planner.type": "test.lines", "path_planner.step": 0.1}) == written
+    assert any("write path_planner.advanced.step" in record.message for record in caplog.records)
 
 
 def test_declarations_are_checked():

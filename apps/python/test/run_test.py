@@ -123,7 +123,8 @@ def test_plugins_are_listed_with_their_parameters():
     assert {"simulator", "path_planner", "sequence_planner", "transfer_planner", "importer", "step_check"} <= kinds
     mine = dismantle.describe("test.lines")
     assert mine["kind"] == "path_planner" and mine["summary"] == "Straight lines."
-    assert [p["name"] for p in mine["parameters"]] == ["directions", "step", "order"]
+    assert [p["name"] for p in mine["parameters"]] == ["directions", "order"]
+    assert [p["name"] for p in mine["advanced"]] == ["step"]
     with pytest.raises(ValueError):
         dismantle.plugins("planner")
     assert "acme" not in dismantle.resolved_config() and "schema: 1" in dismantle.resolved_config()

@@ -30,8 +30,10 @@ std::map<std::string, std::string> pages(const dismantle::Registry& registry) {
   }
   index += "\n## configuration\n\n- [sections](sections.md): the sections that are not one plugin\n";
   index += "- [dismantle.schema.json](dismantle.schema.json): JSON Schema for editors\n";
-  all["README.md"] = index;
+  index += "- [advanced parameters](advanced.md) of plugins and sections\n";
+  all["advanced.md"] = dismantle::describe_advanced_markdown(registry);
   all["sections.md"] = dismantle::describe_sections_markdown();
+  all["README.md"] = index;
   all["dismantle.schema.json"] = dismantle::json_schema(registry);
   return all;
 }

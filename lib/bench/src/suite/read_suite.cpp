@@ -267,6 +267,8 @@ class Reader {
       }
       return;
     }
+    for (const auto& warning : planner.config.warnings)
+      suite_.notes.push_back(fmt::format("planners.{}: {}", name, warning));
     suite_.planners.push_back(std::move(planner));
   }
 

@@ -59,7 +59,7 @@ std::optional<ParamValue> parse_plain(ParamType type, const std::string& text, s
 std::optional<ParamValue> bind_value(const ParamSpec& spec, const ConfigNode& node, const SectionContext& context,
                                      std::vector<Diagnostic>& problems) {
   const auto fail = [&](const std::string& what) {
-    std::string text = fmt::format("{}.{} {}", context.name, spec.name, what);
+    std::string text = fmt::format("{} {}", key_of(context.name, spec), what);
     if (!context.source.empty()) text += fmt::format(" [{}]", context.source);
     problems.push_back(node.mark.error(std::move(text)));
     return std::nullopt;
@@ -87,7 +87,8 @@ std::optional<ParamValue> bind_value(const ParamSpec& spec, const ConfigNode& no
 }
 
 std::string unknown_key_message(const std::string& key, const SectionContext& context,
-                                const std::vector<std::string>& known, const KeyHomes& homes) {
+                                const std::vector<std::string>& known, const KeyHomes& homes,
+                                const std::vector<std::string>& advanced) {
   std::string text = context.name.empty() ? fmt::format("unknown key '{}'", key)
                                           : fmt::format("unknown key '{}' in {}", key, label(context));
   const auto home = homes.find(key);
@@ -97,6 +98,7 @@ std::string unknown_key_message(const std::string& key, const SectionContext& co
     return text + fmt::format("; it belongs to {}", places);
   }
   if (const auto near = nearest(key, known)) return text + fmt::format("; did you mean '{}'?", *near);
+  if (const auto near = nearest(key, advanced)) return text + fmt::format("; did you mean 'advanced.{}'?", *near);
   std::vector<std::string> elsewhere;
   for (const auto& entry : homes) elsewhere.push_back(entry.first);
   if (const auto near = nearest(key, elsewhere))
@@ -110,7 +112,8 @@ ParamSet bind_section(const std::vector<ParamSpec>& specs, const ConfigNode* nod
   const TypeSource none{
       [](PluginKind, const std::string&) { return nullptr; },
       [](PluginKind, const std::string& id) { return fmt::format("'{}': plugins cannot be chosen here", id); }};
-  return Binder(none, homes, origins, problems).section(specs, node, context);
+  std::vector<std::string> warnings;  // these sections never had another form
+  return Binder(none, homes, origins, problems, warnings).section(specs, node, context);
 }
 
 void take_schema(ConfigNode& root, std::vector<Diagnostic>& problems) {

@@ -43,8 +43,19 @@ std::string source_text(const RegisteredType& type) {
   return fmt::format("{} {}, {}", type.type.id, type.file->version, type.file->path.filename().string());
 }
 
+std::string key_of(const std::string& section, const ParamSpec& spec) {
+  return fmt::format("{}.{}{}", section, spec.advanced ? "advanced." : "", spec.name);
+}
+
 std::string default_origin(const RegisteredType& type) {
   return type.preset_of.empty() ? "default" : "preset " + type.type.id;
+}
+
+/// The value of a parameter that the map does not set; nullptr when there is none.
+const ParamValue* Binder::value_below(const Part& part, const ParamSpec& spec) {
+  if (part.below != nullptr)
+    if (const auto it = part.below->find(spec.name); it != part.below->end()) return &it->second;
+  return spec.required ? nullptr : &spec.fallback;
 }
 
 ParamSet Binder::section(const std::vector<ParamSpec>& specs, const ConfigNode* node, const SectionContext& context,
@@ -96,49 +107,73 @@ std::optional<PluginChoice> Binder::choice(PluginKind kind, const std::vector<Pa
 }
 
 void Binder::bind_parts(std::vector<Part>& parts, const ConfigNode* node, const SectionContext& context) {
-  const auto below = [](const Part& part, const ParamSpec& spec) -> const ParamValue* {
-    if (part.below != nullptr)
-      if (const auto it = part.below->find(spec.name); it != part.below->end()) return &it->second;
-    return spec.required ? nullptr : &spec.fallback;
-  };
-  std::vector<std::string> known;
+  Keys keys{context, {}, {}};
   for (const Part& part : parts)
-    for (const auto& spec : *part.specs) known.push_back(spec.name);
-  std::vector<std::string> failed;
+    for (const auto& spec : *part.specs) (spec.advanced ? keys.advanced : keys.declared).push_back(spec.name);
+  if (!keys.advanced.empty()) keys.declared.emplace_back("advanced");
   if (node != nullptr && !node->is_map())
     problems_.push_back(
         node->mark.error(fmt::format("{} must be a map of keys, not {}", context.name, node->kind_name())));
   if (node != nullptr && node->is_map()) {
     for (const auto& member : node->members) {
       if (member.key == "type" && !context.type.empty()) continue;
-      const auto home = std::find_if(parts.begin(), parts.end(),
-                                     [&](const Part& p) { return spec_of(*p.specs, member.key) != nullptr; });
-      if (home == parts.end()) {
-        problems_.push_back(member.key_mark.error(unknown_key_message(member.key, context, known, homes_)));
-        continue;
-      }
-      const ParamSpec& spec = *spec_of(*home->specs, member.key);
-      if (auto bound = value(spec, member.value, context, below(*home, spec), home->origin))
-        home->values.emplace(member.key, std::move(*bound));
+      if (member.key == "advanced" && !keys.advanced.empty())
+        bind_advanced(parts, member, keys);
       else
-        failed.push_back(member.key);
+        bind_key(parts, member, false, keys);
     }
+  }
+  if (!keys.displaced.empty()) {
+    std::string right;
+    for (const ConfigMember* member : keys.displaced)
+      right += fmt::format("{}{}.advanced.{}", right.empty() ? "" : ", ", context.name, member->key);
+    warnings_.push_back(keys.displaced.front()->key_mark.warning(
+        fmt::format("advanced parameters are keys of the map 'advanced': write {}", right)));
   }
   for (Part& part : parts) {
     for (const auto& spec : *part.specs) {
       if (part.values.contains(spec.name)) continue;
-      const ParamValue* fallback = below(part, spec);
+      const ParamValue* fallback = value_below(part, spec);
       if (fallback != nullptr) {
         const ConfigNode untouched = nothing_said(node != nullptr ? node->mark : ConfigMark{});
-        part.values.emplace(spec.name,
-                            defaulted(spec, *fallback, untouched, context.name + "." + spec.name, part.origin));
-      } else if (std::find(failed.begin(), failed.end(), spec.name) == failed.end()) {
+        part.values.emplace(spec.name, defaulted(spec, *fallback, untouched, key_of(context.name, spec), part.origin));
+      } else if (std::find(keys.failed.begin(), keys.failed.end(), spec.name) == keys.failed.end()) {
         const std::string text =
             fmt::format("{} ({}) needs the key '{}', which has no default", context.name, context.type, spec.name);
         problems_.push_back(node != nullptr ? node->mark.error(text) : Diagnostic{"", 0, 0, text});
       }
     }
   }
+}
+
+void Binder::bind_advanced(std::vector<Part>& parts, const ConfigMember& member, Keys& keys) {
+  if (!member.value.is_map())
+    problems_.push_back(member.value.mark.error(
+        fmt::format("{}.advanced must be a map of keys, not {}", keys.context.name, member.value.kind_name())));
+  for (const auto& inner : member.value.members) bind_key(parts, inner, true, keys);
+}
+
+void Binder::bind_key(std::vector<Part>& parts, const ConfigMember& member, bool in_advanced, Keys& keys) {
+  const SectionContext& context = keys.context;
+  const auto fail = [&](const std::string& what) { problems_.push_back(member.key_mark.error(what)); };
+  const auto home =
+      std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return spec_of(*p.specs, member.key) != nullptr; });
+  if (home == parts.end()) {
+    if (in_advanced)
+      return fail(unknown_key_message(member.key, {context.name + ".advanced", context.type, context.source},
+                                      keys.advanced, homes_));
+    return fail(unknown_key_message(member.key, context, keys.declared, homes_, keys.advanced));
+  }
+  const ParamSpec& spec = *spec_of(*home->specs, member.key);
+  if (in_advanced && !spec.advanced)
+    fail(fmt::format("'{}' is not an advanced parameter: write {}", member.key, key_of(context.name, spec)));
+  if (home->values.contains(member.key))
+    return fail(fmt::format("{} is set twice, inside the map 'advanced' and outside", key_of(context.name, spec)));
+  if (spec.advanced && !in_advanced) keys.displaced.push_back(&member);
+  if (auto bound = value(spec, member.value, context, value_below(*home, spec), home->origin))
+    home->values.emplace(member.key, std::move(*bound));
+  else
+    keys.failed.push_back(member.key);
 }
 
 /// A value that no layer sets. Default plugins may lack parameters; these are filled in here.
@@ -159,7 +194,7 @@ ParamValue Binder::defaulted(const ParamSpec& spec, const ParamValue& value, con
 
 std::optional<ParamValue> Binder::value(const ParamSpec& spec, const ConfigNode& node, const SectionContext& context,
                                         const ParamValue* below, const std::string& origin) {
-  const std::string name = context.name + "." + spec.name;
+  const std::string name = key_of(context.name, spec);
   if (spec.type == ParamType::plugin) {
     const auto* under = below != nullptr ? std::get_if<PluginChoice>(below) : nullptr;
     auto bound = choice(spec.plugin_kind, {}, node, name, under, origin);

@@ -22,6 +22,8 @@ TypeSource types_of(const Registry& registry);
 
 /// "bfs 0.1.0, libbfs.so", for messages.
 std::string source_text(const RegisteredType& type);
+/// "path_planner.motion"; an advanced parameter is a key of the map `advanced`: "path_planner.advanced.thinning".
+std::string key_of(const std::string& section, const ParamSpec& spec);
 /// The origin to state for a value that no layer sets: "default" or "preset guided".
 std::string default_origin(const RegisteredType& type);
 
@@ -29,8 +31,8 @@ class Binder {
  public:
   /// All arguments must outlive this.
   Binder(const TypeSource& types, const KeyHomes& homes, std::map<std::string, std::string>& origins,
-         std::vector<Diagnostic>& problems)
-      : types_(types), homes_(homes), origins_(origins), problems_(problems) {}
+         std::vector<Diagnostic>& problems, std::vector<std::string>& warnings)
+      : types_(types), homes_(homes), origins_(origins), problems_(problems), warnings_(warnings) {}
 
   /// The values of a section (`node` may be nullptr: all defaults), complete unless there were problems. `origin`:
   /// origin to state for default values.
@@ -55,7 +57,19 @@ class Binder {
     ParamSet values{};
   };
 
+  /// A map of keys as it is read, and what was found in it.
+  struct Keys {
+    const SectionContext& context;
+    std::vector<std::string> declared, advanced;   ///< names of the parameters
+    std::vector<const ConfigMember*> displaced{};  ///< advanced parameters outside the map `advanced`
+    std::vector<std::string> failed{};
+  };
+
   void bind_parts(std::vector<Part>& parts, const ConfigNode* node, const SectionContext& context);
+  /// Binds one key of the section, or of its map `advanced`.
+  void bind_key(std::vector<Part>& parts, const ConfigMember& member, bool in_advanced, Keys& keys);
+  void bind_advanced(std::vector<Part>& parts, const ConfigMember& member, Keys& keys);
+  static const ParamValue* value_below(const Part& part, const ParamSpec& spec);
   std::optional<ParamValue> value(const ParamSpec& spec, const ConfigNode& node, const SectionContext& context,
                                   const ParamValue* below, const std::string& origin);
   std::optional<ParamValue> list(const ParamSpec& spec, const ConfigNode& node, const std::string& name,
@@ -67,6 +81,7 @@ class Binder {
   const KeyHomes& homes_;
   std::map<std::string, std::string>& origins_;
   std::vector<Diagnostic>& problems_;
+  std::vector<std::string>& warnings_;
   unsigned depth_ = 0;
 };
 

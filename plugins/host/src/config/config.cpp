@@ -159,15 +159,15 @@ class Loader {
       const auto* type = section.one == nullptr ? nullptr : chosen_[section.name].type;
       if (type == nullptr) continue;
       for (const auto& spec : type->type.params) {
-        homes_[spec.name].push_back(fmt::format("{} ({})", section.name, type->type.id));
+        add_home(spec, section.name, type->type.id);
         collect_nested_homes(spec, node(section.name), section.name);
       }
     }
     for (const auto& [name, specs] : fixed_sections())
-      for (const auto& spec : specs) homes_[spec.name].push_back(name);
+      for (const auto& spec : specs) add_home(spec, name);
     homes_["poses"].push_back("layout");
     for (const auto* type : registry_.types(PluginKind::importer))
-      for (const auto& spec : type->type.params) homes_[spec.name].push_back("importers." + type->type.id);
+      for (const auto& spec : type->type.params) add_home(spec, "importers." + type->type.id);
     for (const auto& [member, known] : unknown_top_)
       if (member->key == "force")
         problems_.push_back(member->key_mark.error(
@@ -181,6 +181,11 @@ class Loader {
           member->key_mark.error(unknown_key_message(member->key, {"plugins", "", ""}, {"search_paths"}, homes_)));
   }
 
+  void add_home(const ParamSpec& spec, const std::string& section, const std::string& type = "") {
+    homes_[spec.name].push_back(section + (spec.advanced ? ".advanced" : "") +
+                                (type.empty() ? "" : fmt::format(" ({})", type)));
+  }
+
   /// Collects the keys of the plugins in one parameter: those that the file names, otherwise the default.
   void collect_nested_homes(const ParamSpec& spec, const ConfigNode* section, const std::string& name) {
     std::vector<std::string> types;
@@ -191,14 +196,13 @@ class Loader {
       for (const PluginChoice& choice : *many) types.push_back(choice.type);
     }
     const std::string list = name + "." + spec.name;
-    for (const ParamSpec& option : spec.options) homes_[option.name].push_back("items of " + list);
+    for (const ParamSpec& option : spec.options) add_home(option, "items of " + list);
     for (std::size_t k = 0; k < types.size(); ++k)
       if (const RegisteredType* type = registry_.lookup(spec.plugin_kind, types[k]))
-        for (const ParamSpec& own : type->type.params)
-          homes_[own.name].push_back(fmt::format("{}.{} ({})", list, k, types[k]));
+        for (const ParamSpec& own : type->type.params) add_home(own, fmt::format("{}.{}", list, k), types[k]);
   }
 
-  Binder binder() { return {types_, homes_, config_.origins, problems_}; }
+  Binder binder() { return {types_, homes_, config_.origins, problems_, config_.warnings}; }
 
   void bind_plugin(const PluginSection& section) {
     const ConfigNode* map = node(section.name);
@@ -227,8 +231,8 @@ class Loader {
       if (type->type.params.empty() && member == nullptr) continue;
       const std::string source =
           fmt::format("{} {}, {}", id, type->file->version, type->file->path.filename().string());
-      config_.importers[id] = bind_section(type->type.params, member == nullptr ? nullptr : &member->value,
-                                           {"importers." + id, "", source}, homes_, config_.origins, problems_);
+      config_.importers[id] = binder().section(type->type.params, member == nullptr ? nullptr : &member->value,
+                                               {"importers." + id, "", source});
     }
     if (section == nullptr) return;
     for (const auto& member : section->members)

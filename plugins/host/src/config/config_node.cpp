@@ -164,6 +164,10 @@ class TreeBuilder : public YAML::EventHandler {
 
 std::string ConfigMark::text() const { return line > 0 ? fmt::format("{}:{}", file(), line) : file(); }
 
+std::string ConfigMark::warning(const std::string& message) const {
+  return fmt::format("{}{}: {}", text(), line > 0 && column > 0 ? fmt::format(":{}", column) : "", message);
+}
+
 Diagnostic ConfigMark::error(std::string message) const { return {file(), line, column, std::move(message)}; }
 
 const ConfigMember* ConfigNode::find(const std::string& key) const {

@@ -52,8 +52,8 @@ class Writer {
       line(fmt::format("    - {{parts: {}, depth: {}}}", list({o.a, o.b}), to_text(ParamValue{o.depth})));
   }
 
-  void values(const std::string& section, const std::vector<ParamSpec>& specs, const ParamSet& params) {
-    yaml_.values(section, 2, specs, params);
+  void section(const std::string& name, const std::vector<ParamSpec>& specs, const ParamSet& params) {
+    yaml_.section(name, specs, params);
   }
 
   void plugins(const PluginSection& section, const RunConfig& config, const Registry& registry) {
@@ -114,7 +114,7 @@ std::string relative_to(const fs::path& path, const fs::path& folder) {
 std::string resolved_yaml(const RunConfig& config, const Registry& registry, const fs::path& folder) {
   Writer writer(config, registry);
   writer.line(
-      fmt::format("# Written by dismantle {}: every value of this run, and where it came from.", DISMANTLE_VERSION));
+      fmt::format("# Written by dismantle {}: the values of this run, and where they came from.", DISMANTLE_VERSION));
   writer.line("# The same input with this file gives the same plan.");
   writer.line(fmt::format("schema: {}", kConfigSchema));
   if (!config.plugin_search_paths.empty()) {
@@ -125,8 +125,7 @@ std::string resolved_yaml(const RunConfig& config, const Registry& registry, con
   const auto fixed = [&](const std::string& name) {
     for (const auto& [section, specs] : fixed_sections()) {
       if (section != name) continue;
-      writer.line(name + ":");
-      writer.values(name, specs, config.sections.at(name));
+      writer.section(name, specs, config.sections.at(name));
     }
   };
   writer.importers(import_params_of(config, registry), registry);

@@ -3,13 +3,9 @@
 namespace dismantle {
 namespace {
 
-struct VerifySettings {
+struct VerifySettings : VerifyBudget {
   double max_penetration = VerifyOptions{}.max_penetration;
   double named_overlap = 0.1;
-  VerifyBudget budget;
-  std::uint64_t tests = budget.tests, tests_per_segment = budget.tests_per_segment, patches = budget.patches,
-                overlap_factor = budget.overlap_factor;
-  double trial_share = budget.trial_share, resolution = budget.resolution;
   static void describe(Schema<VerifySettings>& s) {
     s.add("max_penetration", &VerifySettings::max_penetration,
           {.unit = "assembly units",
@@ -17,54 +13,20 @@ struct VerifySettings {
            .max = 0.05 * PrepareOptions{}.size,
            .min_open = true,
            .doc = "Deepest penetration allowed along a path, beyond the overlap of the pair. The largest edge of the "
-                  "assembly "
-                  "is 10; with more than a twentieth of that, parts could pass through each other's walls, and a valid "
-                  "plan would mean nothing."});
+                  "assembly is 10; with more than a twentieth of that, parts could pass through each other's walls, "
+                  "and a valid plan would mean nothing."});
     s.add(
         "named_overlap", &VerifySettings::named_overlap,
         {.unit = "assembly units",
          .min = 0,
          .doc = "Pairs that overlap by more than this when assembled are named in each step of the plan that uses the "
                 "overlap, with the depth along the path."});
-    s.add("tests", &VerifySettings::tests,
-          {.unit = "1",
-           .min = 1,
-           .max = 1e12,
-           .doc =
-               "Advanced. Most sweep tests for the proof of one pair of solids. With more, fewer motions of close fits "
-               "are refused as uncertain, but refused ones take longer."});
-    s.add(
-        "tests_per_segment", &VerifySettings::tests_per_segment,
-        {.unit = "1", .min = 0, .max = 1e12, .doc = "Advanced. Additional sweep tests for each segment of the path."});
-    s.add(
-        "patches", &VerifySettings::patches,
-        {.unit = "1",
-         .min = 4,
-         .max = 1e9,
-         .doc =
-             "Advanced. Most patches into which the surfaces of one pair of solids are divided; also bounds memory."});
-    s.add("overlap_factor", &VerifySettings::overlap_factor,
-          {.unit = "1",
-           .min = 1,
-           .max = 1000,
-           .doc = "Advanced. Factor on the number of patches for pairs that overlap by more than max_penetration when "
-                  "assembled: "
-                  "they are divided along the ridges of what is inside."});
-    s.add("trial_share", &VerifySettings::trial_share,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .min_open = true,
-           .doc = "Advanced. Share of these counts for optional proofs: of penetrations below max_penetration, and of "
-                  "parts that pass each other, for the precedence of steps."});
-    s.add(
-        "resolution", &VerifySettings::resolution,
-        {.unit = "max_penetration",
-         .min = 0,
-         .max = 1,
-         .min_open = true,
-         .doc = "Advanced. Size below which a patch of surface is not divided further, as a share of the penetration "
-                "allowed. With smaller values fewer motions are refused as uncertain, but refused ones take longer."});
+    s.advanced("tests", &VerifyBudget::tests, {1, 1e12});
+    s.advanced("tests_per_segment", &VerifyBudget::tests_per_segment, {0, 1e12});
+    s.advanced("patches", &VerifyBudget::patches, {4, 1e9});
+    s.advanced("overlap_factor", &VerifyBudget::overlap_factor, {1, 1000});
+    s.advanced("trial_share", &VerifyBudget::trial_share, {.min = 0, .max = 1, .min_open = true});
+    s.advanced("resolution", &VerifyBudget::resolution, {.min = 0, .max = 1, .min_open = true});
   }
 };
 
@@ -73,7 +35,7 @@ struct VerifySettings {
 void bind_verify_section(RunConfig& config) {
   const auto v = Schema<VerifySettings>().bind(config.sections.at("verify"));
   config.verify.max_penetration = v.max_penetration;
-  config.verify.budget = {v.tests, v.tests_per_segment, v.patches, v.overlap_factor, v.trial_share, v.resolution};
+  config.verify.budget = v;
   config.named_overlap = v.named_overlap;
 }
 

@@ -48,41 +48,65 @@ void YamlWriter::row(const std::string& lead, const std::string& text, const std
 
 void YamlWriter::values(const std::string& path, std::size_t indent, const std::vector<ParamSpec>& specs,
                         const ParamSet& values) {
-  const std::string blanks(indent, ' ');
+  for (const auto& spec : specs)
+    if (const auto it = values.find(spec.name); !spec.advanced && it != values.end())
+      value(path, indent, spec, it->second);
+  bool first = true;
   for (const auto& spec : specs) {
     const auto it = values.find(spec.name);
-    if (it == values.end()) continue;
-    const std::string place = path.empty() ? spec.name : path + "." + spec.name, lead = blanks + spec.name + ": ";
-    if (const auto* text = std::get_if<std::string>(&it->second)) {
-      row(lead, spec.type == ParamType::choice ? plain_or_quoted(*text) : quoted(*text), place);
-    } else if (const auto* one = std::get_if<PluginChoice>(&it->second)) {
+    if (!spec.advanced || it == values.end() || it->second == spec.fallback) continue;
+    if (first) line(std::string(indent, ' ') + "advanced:");
+    first = false;
+    value(path + ".advanced", indent + 2, spec, it->second);
+  }
+}
+
+void YamlWriter::section(const std::string& name, const std::vector<ParamSpec>& specs, const ParamSet& all) {
+  const std::size_t before = out_.size();
+  line(name + ":");
+  const std::size_t head = out_.size();
+  values(name, 2, specs, all);
+  if (out_.size() == head) out_.resize(before);  // a key without a value is an error
+}
+
+void YamlWriter::value(const std::string& path, std::size_t indent, const ParamSpec& spec, const ParamValue& value) {
+  const std::string blanks(indent, ' '), place = path.empty() ? spec.name : path + "." + spec.name;
+  const std::string lead = blanks + spec.name + ": ";
+  if (const auto* text = std::get_if<std::string>(&value)) {
+    row(lead, spec.type == ParamType::choice ? plain_or_quoted(*text) : quoted(*text), place);
+  } else if (const auto* one = std::get_if<PluginChoice>(&value)) {
+    line(blanks + spec.name + ":");
+    choice(place, indent + 2, spec.plugin_kind, spec.options, *one, std::get_if<PluginChoice>(&spec.fallback));
+  } else if (const auto* many = std::get_if<std::vector<PluginChoice>>(&value)) {
+    if (many->empty())
+      row(lead, "[]", place);
+    else
       line(blanks + spec.name + ":");
-      choice(place, indent + 2, spec.plugin_kind, spec.options, *one);
-    } else if (const auto* many = std::get_if<std::vector<PluginChoice>>(&it->second)) {
-      if (many->empty())
-        row(lead, "[]", place);
-      else
-        line(blanks + spec.name + ":");
-      for (std::size_t k = 0; k < many->size(); ++k) {
-        const std::size_t begin = out_.size();
-        choice(fmt::format("{}.{}", place, k), indent + 4, spec.plugin_kind, spec.options, (*many)[k]);
-        const std::size_t type = out_.find(blanks + "    type: ", begin);
-        out_[type + indent + 2] = '-';  // the first key of the item
-      }
-    } else {
-      row(lead, to_text(it->second), place);
+    for (std::size_t k = 0; k < many->size(); ++k) {
+      const std::size_t begin = out_.size();
+      choice(fmt::format("{}.{}", place, k), indent + 4, spec.plugin_kind, spec.options, (*many)[k]);
+      const std::size_t type = out_.find(blanks + "    type: ", begin);
+      out_[type + indent + 2] = '-';  // the first key of the item
     }
+  } else {
+    row(lead, to_text(value), place);
   }
 }
 
 void YamlWriter::choice(const std::string& path, std::size_t indent, PluginKind kind,
-                        const std::vector<ParamSpec>& options, const PluginChoice& choice) {
+                        const std::vector<ParamSpec>& options, const PluginChoice& choice, const PluginChoice* below) {
   const RegisteredType& type = registry_.find(kind, choice.type);
   const std::string blanks(indent, ' ');
   if (plugin_comment_) line(blanks + "# " + one_line(plugin_comment_(type)));
   row(blanks + "type: ", plain_or_quoted(choice.type), path + ".type");
-  values(path, indent, options, choice.options);
-  values(path, indent, type.type.params, choice.parameters);
+  std::vector<ParamSpec> specs = options;  // they stand in one map
+  specs.insert(specs.end(), type.type.params.begin(), type.type.params.end());
+  ParamSet all = choice.options;
+  all.insert(choice.parameters.begin(), choice.parameters.end());
+  if (below != nullptr && below->type == choice.type)
+    for (ParamSpec& spec : specs)
+      if (const auto it = below->parameters.find(spec.name); it != below->parameters.end()) spec.fallback = it->second;
+  values(path, indent, specs, all);
 }
 
 }  // namespace dismantle

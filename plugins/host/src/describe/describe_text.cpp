@@ -67,9 +67,11 @@ std::string describe_text(const RegisteredType& registered, const Registry& regi
     }
     out += "\n";
   }
-  if (type.params.empty()) return out + "No parameters.\n";
-  out += "Parameters:\n";
-  for (const auto& spec : with_options(type.params)) out += parameter_text(spec);
+  const auto declared = with_options(type.params, false), advanced = with_options(type.params, true);
+  out += declared.empty() ? "No parameters.\n" : "Parameters:\n";
+  for (const auto& spec : declared) out += parameter_text(spec);
+  if (!advanced.empty()) out += "\nAdvanced parameters, for studies, in the map 'advanced':\n";
+  for (const auto& spec : advanced) out += parameter_text(spec);
   return out;
 }
 

@@ -58,11 +58,11 @@ std::vector<std::string> capability_words(const Capabilities& c) {
   return words;
 }
 
-std::vector<ParamSpec> with_options(const std::vector<ParamSpec>& specs) {
+std::vector<ParamSpec> with_options(const std::vector<ParamSpec>& specs, bool advanced) {
   std::vector<ParamSpec> all;
   for (const auto& spec : specs) {
-    all.push_back(spec);
-    for (ParamSpec option : with_options(spec.options)) {
+    if (spec.advanced == advanced) all.push_back(spec);
+    for (ParamSpec option : with_options(spec.options, advanced)) {
       option.name = spec.name + "[]." + option.name;
       all.push_back(std::move(option));
     }

@@ -17,8 +17,8 @@ std::string default_text(const ParamSpec& spec);
 std::string limits_text(const ParamSpec& spec);
 /// "dynamics, contacts", "2 parts moving simultaneously"; empty when none is declared.
 std::vector<std::string> capability_words(const Capabilities& c);
-/// The declarations; each is followed by the options of its items, named like `of[].after`.
-std::vector<ParamSpec> with_options(const std::vector<ParamSpec>& specs);
+/// The declared or the advanced parameters; each is followed by the options of its items, named like `of[].after`.
+std::vector<ParamSpec> with_options(const std::vector<ParamSpec>& specs, bool advanced);
 /// Expansion of a preset as YAML: its type with all parameters, nested plugins included.
 std::string expansion(const RegisteredType& preset, const Registry& registry);
 std::string joined(const std::vector<std::string>& words, const std::string& between = ", ");

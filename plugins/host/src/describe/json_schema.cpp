@@ -14,6 +14,7 @@ class Definitions {
 
   /// Reference to "any plugin of this kind, with these options beside its own parameters".
   Json choice_of(PluginKind kind, const std::vector<ParamSpec>& options, const std::string& place);
+  const Registry& registry() const { return registry_; }
   Json take() { return std::move(all_); }
 
  private:
@@ -54,8 +55,9 @@ Json parameter_schema(const ParamSpec& spec, const std::string& place, Definitio
   }
   if (spec.min) json[spec.min_open ? "exclusiveMinimum" : "minimum"] = *spec.min;
   if (spec.max) json[spec.max_open ? "exclusiveMaximum" : "maximum"] = *spec.max;
-  if (!spec.required) json["default"] = json_value(spec.fallback);
-  json["description"] = spec.unit.empty() || spec.unit == "1" ? spec.doc : fmt::format("{} [{}]", spec.doc, spec.unit);
+  if (!spec.required) json["default"] = json_value(spec, spec.fallback, definitions.registry());
+  if (!spec.doc.empty())
+    json["description"] = spec.unit.empty() || spec.unit == "1" ? spec.doc : fmt::format("{} [{}]", spec.doc, spec.unit);
   return json;
 }
 
@@ -64,8 +66,10 @@ Json object(Json properties) {
 }
 
 Json properties_of(const std::vector<ParamSpec>& specs, const std::string& place, Definitions& definitions) {
-  Json properties = Json::object();
-  for (const auto& spec : specs) properties[spec.name] = parameter_schema(spec, place + "." + spec.name, definitions);
+  Json properties = Json::object(), advanced = Json::object();
+  for (const auto& spec : specs)
+    (spec.advanced ? advanced : properties)[spec.name] = parameter_schema(spec, place + "." + spec.name, definitions);
+  if (!advanced.empty()) properties["advanced"] = object(std::move(advanced));
   return properties;
 }
 
@@ -78,7 +82,7 @@ Json alternatives(const Registry& registry, PluginKind kind, const std::vector<P
     const std::string& base = registered->preset_of.empty() ? type.id : registered->preset_of;
     Json properties = {{"type", {{"const", type.id}, {"description", type.summary}}}};
     properties.update(properties_of(options, "option", definitions));
-    properties.update(properties_of(type.params, base, definitions));
+    properties.update(properties_of(type.params, base, definitions), true);
     Json alternative = object(std::move(properties));
     Json required = Json::array();
     if (type.id != optional_id) required.push_back("type");

@@ -78,12 +78,14 @@ const RegisteredType* Registry::resolve_preset(const std::string& id, std::vecto
                            return text + other;
                          }};
   std::map<std::string, std::string> origins;
+  std::vector<std::string> warnings;
   std::optional<PluginChoice> choice;
   if (lookup(id) != nullptr)
     problems.push_back({"", 0, 0, fmt::format("the id '{}' is taken by {}", id, lookup(id)->file->path.string())});
   if (problems.empty())
-    choice = Binder(types, {}, origins, problems)
+    choice = Binder(types, {}, origins, problems, warnings)
                  .choice(preset.kind, {}, preset.choice, std::string(to_string(preset.kind)), nullptr, "default");
+  for (const std::string& warning : warnings) problems.push_back({"", 0, 0, warning});
   chain.pop_back();
   if (!problems.empty()) {
     const auto known =

@@ -93,6 +93,7 @@ struct RunConfig {
   std::map<std::string, ParamSet> sections;
   /// "run.seed" -> "configs/a.yaml:4", "<--set>:1", "<--seed>" or "default".
   std::map<std::string, std::string> origins;
+  std::vector<std::string> warnings;  ///< "run.yaml:4:3: ...": keys that are read, but should be written otherwise
 };
 
 /// An option of the command line that stands for a key: {"--seed", "run.seed", "7"}.

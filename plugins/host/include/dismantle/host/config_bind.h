@@ -32,9 +32,10 @@ DISMANTLE_API ParamSet bind_section(const std::vector<ParamSpec>& specs, const C
                                     const SectionContext& context, const KeyHomes& homes,
                                     std::map<std::string, std::string>& origins, std::vector<Diagnostic>& problems);
 
-/// "unknown key 'goal_bais' in path_planner (t_rrt); did you mean 'goal_bias'?"
+/// "unknown key 'goal_bais' in path_planner (t_rrt); did you mean 'goal_bias'?" `advanced`: keys of its map `advanced`.
 DISMANTLE_API std::string unknown_key_message(const std::string& key, const SectionContext& context,
-                                              const std::vector<std::string>& known, const KeyHomes& homes);
+                                              const std::vector<std::string>& known, const KeyHomes& homes,
+                                              const std::vector<std::string>& advanced = {});
 
 /// Checks the key `schema` of a file and removes it from the tree.
 DISMANTLE_API void take_schema(ConfigNode& root, std::vector<Diagnostic>& problems);

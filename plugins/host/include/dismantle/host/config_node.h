@@ -19,6 +19,8 @@ struct ConfigMark {
   std::string file() const { return source ? *source : std::string(); }
   /// `file:line`, for comments.
   DISMANTLE_API std::string text() const;
+  /// `file:line:column: message`.
+  DISMANTLE_API std::string warning(const std::string& message) const;
   DISMANTLE_API Diagnostic error(std::string message) const;
 };
 
