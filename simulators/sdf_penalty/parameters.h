@@ -26,12 +26,20 @@ struct Parameters : sdf::ContactParameters {
   Dynamics dynamics = Dynamics::quasi_static;
   double density = 1;
   double drag = 40;
+  /// Largest motion of any point of a part in one implicit step; bounds speed and keeps parts from passing thin walls
+  /// (assembly units).
   double max_travel = 0.02;
+  /// Second order: combines time steps into one as long as no point moves further than `max_travel`.
   bool adaptive = false;
+  /// Second order: an advance ends when its rest cannot move the part further than this share of the motion of a free
+  /// part. 0: all time steps are simulated.
   double rest_share = 0;
+  /// A part that moves by less than this share of the free way has stalled; under `dynamics: quasi_static` the advance
+  /// ends after three such steps.
   double stall_share = 0.1;
   sdf::DistanceModel distance = sdf::DistanceModel::exact;
   double cell = 0.05;
+  /// Smallest number of cells along each edge of the part's box under `distance: grid` (appendix A).
   std::int64_t cells_per_edge = 20;
 
   static void describe(Schema<Parameters>& s) {
@@ -67,20 +75,9 @@ struct Parameters : sdf::ContactParameters {
            .min = 0,
            .min_open = true,
            .doc = "Drag under `dynamics: quasi_static`: a free part moves at force / drag."});
-    s.add("max_travel", &Parameters::max_travel,
-          {.unit = "unit",
-           .min = 1e-4,
-           .max = 0.1,
-           .doc = "Largest motion of any point of a part in one implicit step; bounds speed and keeps parts from "
-                  "passing thin walls."});
-    s.add("adaptive", &Parameters::adaptive,
-          {.doc = "Second order: combines time steps into one as long as no point moves further than `max_travel`."});
-    s.add("rest_share", &Parameters::rest_share,
-          {.unit = "1",
-           .min = 0,
-           .max = 0.1,
-           .doc = "Second order: an advance ends when its rest cannot move the part further than this share of the "
-                  "motion of a free part. 0: all time steps are simulated."});
+    s.advanced("max_travel", &Parameters::max_travel, {1e-4, 0.1});
+    s.advanced("adaptive", &Parameters::adaptive);
+    s.advanced("rest_share", &Parameters::rest_share, {0, 0.1});
     s.add_choice<sdf::DistanceModel>(
         "distance", &Parameters::distance,
         {{"exact", sdf::DistanceModel::exact,
@@ -92,17 +89,8 @@ struct Parameters : sdf::ContactParameters {
            .min = 1e-3,
            .max = 1,
            .doc = "Largest cell of the distance field under `distance: grid` (appendix A)."});
-    s.add("cells_per_edge", &Parameters::cells_per_edge,
-          {.unit = "1",
-           .min = 1,
-           .max = 1000,
-           .doc = "Smallest number of cells along each edge of the part's box under `distance: grid` (appendix A)."});
-    s.add("stall_share", &Parameters::stall_share,
-          {.unit = "1",
-           .min = 0,
-           .max = 0.5,
-           .doc = "Advanced. A part that moves by less than this share of the free way has stalled; under `dynamics: "
-                  "quasi_static` the advance ends after three such steps."});
+    s.advanced("cells_per_edge", &Parameters::cells_per_edge, {1, 1000});
+    s.advanced("stall_share", &Parameters::stall_share, {0, 0.5});
     sdf::describe_points(s);
   }
 };

@@ -10,8 +10,10 @@ struct Parameters : sdf::ContactParameters {
   double drag = 40;
   double max_travel = 0.05;
   double contact_threshold = 0;
+  /// Largest motion of a point in one step beyond the distance known to be free, as a multiple of
+  /// verify.max_penetration. To block parts, a wall must be thicker than twice this.
   double blind_travel = 2;
-  double stall_share = 0.02;
+  double stall_share = 0.02;  ///< A part that moves by less than this share of the free way has stalled.
 
   static void describe(Schema<Parameters>& s) {
     s.add("drag", &Parameters::drag,
@@ -27,17 +29,8 @@ struct Parameters : sdf::ContactParameters {
            .max = 0.1,
            .doc = "Depth at which contact begins to resist, on top of the pair's initial overlap: for fits that must "
                   "yield. The verifier must allow the same depth."});
-    s.add("blind_travel", &Parameters::blind_travel,
-          {.unit = "max_penetration",
-           .min = 0.1,
-           .max = 100,
-           .doc = "Advanced. Largest motion of a point in one step beyond the distance known to be free, as a multiple "
-                  "of verify.max_penetration. To block parts, a wall must be thicker than twice this."});
-    s.add("stall_share", &Parameters::stall_share,
-          {.unit = "1",
-           .min = 0,
-           .max = 0.5,
-           .doc = "Advanced. A part that moves by less than this share of the free way has stalled."});
+    s.advanced("blind_travel", &Parameters::blind_travel, {0.1, 100});
+    s.advanced("stall_share", &Parameters::stall_share, {0, 0.5});
     sdf::describe_points(s);
   }
 };

@@ -61,7 +61,8 @@ TEST(Configs, AreThere) { EXPECT_GE(config_files().size(), 4u); }
 TEST(Configs, EachLoads) {
   for (const auto& file : usable_files()) {
     try {
-      load(file);
+      const RunConfig config = load(file);
+      for (const auto& warning : config.warnings) ADD_FAILURE() << warning;
     } catch (const ConfigError& e) {
       ADD_FAILURE() << e.what();
     }

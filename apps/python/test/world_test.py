@@ -122,6 +122,11 @@ def test_bad_arguments_are_named(peg):
     simulator = dismantle.Simulator(parameters={"time_step": 2e-3})
     with pytest.raises(ValueError, match="no parameter 'timestep'"):
         dismantle.Simulator(parameters={"timestep": 1})
+    dismantle.Simulator(parameters={"advanced": {"max_travel": 0.01}})
+    with pytest.raises(ValueError, match="no advanced parameter 'time_step'"):
+        dismantle.Simulator(parameters={"advanced": {"time_step": 1e-3}})
+    with pytest.raises(dismantle.PluginError, match="max_travel"):
+        dismantle.Simulator(parameters={"advanced": {"max_travel": -1.0}})
     with pytest.raises(TypeError, match="time_step: expected a number"):
         dismantle.Simulator(parameters={"time_step": "fast"})
     with pytest.raises(dismantle.PluginError, match="time_step"):

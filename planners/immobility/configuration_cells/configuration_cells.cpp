@@ -10,43 +10,16 @@
 namespace dismantle::immobility {
 
 void ConfigurationCellsParams::describe(Schema<ConfigurationCellsParams>& s) {
-  s.add("walk_checks", &ConfigurationCellsParams::walk_checks,
-        {.unit = "1",
-         .min = 1,
-         .doc = "State checks of the random search that precedes the proof. If it separates the parts, no proof is "
-                "tried. Too few checks waste time on proofs that must fail."});
+  s.advanced("walk_checks", &ConfigurationCellsParams::walk_checks, {1});
   s.add("max_divisions", &ConfigurationCellsParams::max_divisions,
         {.unit = "1",
          .min = 1,
          .doc = "Limit of divided cells of relative poses, after which the proof is given up. Time grows in "
                 "proportion: about half a minute for the default."});
-  s.add("patience", &ConfigurationCellsParams::patience,
-        {.unit = "1",
-         .min = 1,
-         .doc = "Advanced. Divisions without progress after which the random search extends to where cells lead, and "
-                "the decomposed box grows on a side to which all of them lead. Lower values react sooner to long free "
-                "motions, higher values spend fewer state checks."});
-  s.add("sample_spacing", &ConfigurationCellsParams::sample_spacing,
-        {.unit = "verify.max_penetration",
-         .min = 0,
-         .min_open = true,
-         .doc = "Advanced. Distance between the interior points that the proof uses. Fewer points are faster, but miss "
-                "contacts of small features. It is larger in large parts, so that each part has at most a few thousand "
-                "points."});
-  s.add("smallest_cell", &ConfigurationCellsParams::smallest_cell,
-        {.unit = "verify.max_penetration",
-         .min = 0,
-         .min_open = true,
-         .doc = "Advanced. Cells with a smaller displacement between their poses are not divided. If a way out leads "
-                "through one, the proof is given up."});
-  s.add(
-      "separation", &ConfigurationCellsParams::separation,
-      {.unit = "verify.max_penetration",
-       .min = 0,
-       .min_open = true,
-       .doc =
-           "Advanced. Displacement at which the random search counts the parts as separated, or the radius of the "
-           "smaller part, if that is more. It must exceed the distance that parts can slide without being separated."});
+  s.advanced("patience", &ConfigurationCellsParams::patience, {1});
+  s.advanced("sample_spacing", &ConfigurationCellsParams::sample_spacing, {.min = 0, .min_open = true});
+  s.advanced("smallest_cell", &ConfigurationCellsParams::smallest_cell, {.min = 0, .min_open = true});
+  s.advanced("separation", &ConfigurationCellsParams::separation, {.min = 0, .min_open = true});
 }
 
 std::optional<Certificate> ConfigurationCells::prove(const SeparationQuery& query, const RunContext& context) const {

@@ -31,20 +31,12 @@ std::vector<double> numbers_of(const std::vector<Aabb>& boxes) {
 }  // namespace
 
 void DiscParams::describe(Schema<DiscParams>& s) {
-  s.add("max_discs", &DiscParams::max_discs,
-        {.unit = "1",
-         .min = 1,
-         .doc = "Discs that are tried in each solid, the largest first. A larger disc passes fewer openings, so more "
-                "than one disc helps only for parts with several flat pieces."});
+  s.advanced("max_discs", &DiscParams::max_discs, {1});
   s.add("max_divisions", &DiscParams::max_divisions,
         {.unit = "1",
          .min = 1,
          .doc = "Limit of divided cells of positions of the disc's centre, after which the proof is given up."});
-  s.add("max_facets", &DiscParams::max_facets,
-        {.unit = "1",
-         .min = 1,
-         .doc = "Limit of facet tests, after which the proof is given up: 2e8 take about ten seconds. Most proofs need "
-                "a tenth."});
+  s.advanced("max_facets", &DiscParams::max_facets, {1});
 }
 
 std::optional<Certificate> Disc::prove(const SeparationQuery& query, const RunContext& context) const {

@@ -9,8 +9,11 @@
 namespace dismantle::immobility {
 
 struct DiscParams {
+  /// Discs that are tried in each solid, the largest first. A larger disc passes fewer openings, so more than one disc
+  /// helps only for parts with several flat pieces.
   std::int64_t max_discs = 1;
   std::int64_t max_divisions = 60'000;
+  /// Limit of facet tests, after which the proof is given up: 2e8 take about ten seconds. Most proofs need a tenth.
   std::int64_t max_facets = 200'000'000;
   static void describe(Schema<DiscParams>& s);
 };

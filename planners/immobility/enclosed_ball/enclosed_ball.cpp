@@ -60,16 +60,8 @@ std::vector<PartId> distinct(const std::vector<PartId>& parts) {
 }  // namespace
 
 void EnclosedBallParams::describe(Schema<EnclosedBallParams>& s) {
-  s.add("max_cubes", &EnclosedBallParams::max_cubes,
-        {.unit = "1",
-         .min = 1,
-         .doc = "Limit of divided cubes in the search for the largest ball within a part. With fewer, the ball may be "
-                "smaller than 0.95 times the largest."});
-  s.add("max_cells", &EnclosedBallParams::max_cells,
-        {.unit = "1",
-         .min = 1,
-         .doc = "Limit of cubic cells that the ball's centre reaches, after which the proof is given up. A million "
-                "take about two seconds."});
+  s.advanced("max_cubes", &EnclosedBallParams::max_cubes, {1});
+  s.advanced("max_cells", &EnclosedBallParams::max_cells, {1});
 }
 
 ProverTraits EnclosedBall::traits() const noexcept {

@@ -9,7 +9,11 @@
 namespace dismantle::immobility {
 
 struct EnclosedBallParams {
+  /// Limit of divided cubes in the search for the largest ball within a part. With fewer, the ball may be smaller than
+  /// 0.95 times the largest.
   std::int64_t max_cubes = 2000;
+  /// Limit of cubic cells that the ball's centre reaches, after which the proof is given up. A million take about two
+  /// seconds.
   std::int64_t max_cells = 1'000'000;
   static void describe(Schema<EnclosedBallParams>& s);
 };

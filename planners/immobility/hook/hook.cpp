@@ -18,29 +18,11 @@ std::vector<double> legs_of(const Bend& bend) {
 }  // namespace
 
 void HookParams::describe(Schema<HookParams>& s) {
-  s.add("max_holes", &HookParams::max_holes,
-        {.unit = "1",
-         .min = 1,
-         .doc = "Holes around a bar that are tried, those around the thickest pieces of the bar first."});
-  s.add("max_bends", &HookParams::max_bends,
-        {.unit = "1", .min = 1, .doc = "Bends that are tried on each side of a hole, the sharpest first."});
-  s.add("max_nodes", &HookParams::max_nodes,
-        {.unit = "1",
-         .min = 8,
-         .doc = "Advanced. Points on the middle line of a bar, the deepest first. Time grows with the square of their "
-                "number. Too few leave gaps in long wires."});
-  s.add(
-      "max_distances", &HookParams::max_distances,
-      {.unit = "1",
-       .min = 1,
-       .doc = "Advanced. Distance queries for the proof that one bend cannot pass one hole: 6e6 take a few seconds."});
-  s.add(
-      "min_bend", &HookParams::min_bend,
-      {.unit = "rad",
-       .min = 0,
-       .max = 1.57,
-       .doc =
-           "Advanced. Bends with a smaller angle are not tried, since they pass almost any hole that the bar passes."});
+  s.advanced("max_holes", &HookParams::max_holes, {1});
+  s.advanced("max_bends", &HookParams::max_bends, {1});
+  s.advanced("max_nodes", &HookParams::max_nodes, {8});
+  s.advanced("max_distances", &HookParams::max_distances, {1});
+  s.advanced("min_bend", &HookParams::min_bend, {0, 1.57});
 }
 
 std::optional<Certificate> Hook::prove(const SeparationQuery& query, const RunContext& context) const {

@@ -15,17 +15,8 @@ void InterlockLpParams::describe(Schema<InterlockLpParams>& s) {
          .min = 2,
          .max = 64,
          .doc = "Size of the largest group that is tried. Time grows with the cube of the number of parts."});
-  s.add("max_rounds", &InterlockLpParams::max_rounds,
-        {.unit = "1",
-         .min = 1,
-         .doc = "How often the assumed bounds of the motions are widened before the proof is given up. Most proofs "
-                "need less than ten rounds."});
-  s.add("sample_spacing", &InterlockLpParams::sample_spacing,
-        {.unit = "verify.max_penetration",
-         .min = 0,
-         .min_open = true,
-         .doc = "Advanced. Distance between the interior points that the proof uses. Fewer points are faster, but miss "
-                "contacts of small features."});
+  s.advanced("max_rounds", &InterlockLpParams::max_rounds, {1});
+  s.advanced("sample_spacing", &InterlockLpParams::sample_spacing, {.min = 0, .min_open = true});
 }
 
 std::optional<Certificate> InterlockLp::prove(const SeparationQuery& query, const RunContext& context) const {

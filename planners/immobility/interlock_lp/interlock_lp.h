@@ -10,8 +10,12 @@ namespace dismantle::immobility {
 
 struct InterlockLpParams {
   std::int64_t max_parts = 8;
+  /// How often the assumed bounds of the motions are widened before the proof is given up. Most proofs need less than
+  /// ten rounds.
   std::int64_t max_rounds = 60;
-  double sample_spacing = 2;  ///< tolerances
+  /// Distance between the interior points that the proof uses, in multiples of verify.max_penetration. Fewer points are
+  /// faster, but miss contacts of small features.
+  double sample_spacing = 2;
   static void describe(Schema<InterlockLpParams>& s);
 };
 

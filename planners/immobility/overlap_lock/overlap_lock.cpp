@@ -7,11 +7,7 @@
 
 namespace dismantle::immobility {
 void OverlapLockParams::describe(Schema<OverlapLockParams>& s) {
-  s.add("max_cubes", &OverlapLockParams::max_cubes,
-        {.unit = "1",
-         .min = 1,
-         .doc = "Limit of divided cubes of the common box of two solids, in the search for a point that locks them. "
-                "Fewer may miss small overlaps of large parts."});
+  s.advanced("max_cubes", &OverlapLockParams::max_cubes, {1});
 }
 
 std::optional<Certificate> OverlapLock::prove(const SeparationQuery& query, const RunContext& context) const {

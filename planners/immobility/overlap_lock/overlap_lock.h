@@ -9,6 +9,8 @@
 namespace dismantle::immobility {
 
 struct OverlapLockParams {
+  /// Limit of divided cubes of the common box of two solids, in the search for a point that locks them. Fewer may miss
+  /// small overlaps of large parts.
   std::int64_t max_cubes = 1000;
   static void describe(Schema<OverlapLockParams>& s);
 };

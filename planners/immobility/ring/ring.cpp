@@ -8,26 +8,10 @@
 namespace dismantle::immobility {
 
 void RingParams::describe(Schema<RingParams>& s) {
-  s.add("max_rings", &RingParams::max_rings,
-        {.unit = "1",
-         .min = 1,
-         .doc = "Circles that are tried within each solid, the largest first. Larger circles pass fewer openings."});
-  s.add(
-      "heights", &RingParams::heights,
-      {.unit = "1",
-       .min = 1,
-       .doc =
-           "Advanced. Positions along each axis of a part at which a circle is searched. Too few may miss thin rims."});
-  s.add("radii", &RingParams::radii,
-        {.unit = "1",
-         .min = 1,
-         .doc = "Advanced. Radii that are tried at each position. More radii find a circle closer to the largest."});
-  s.add(
-      "max_sections", &RingParams::max_sections,
-      {.unit = "1",
-       .min = 1,
-       .doc =
-           "Advanced. Approximate number of planes across the axis in which the openings of a chamber are searched."});
+  s.advanced("max_rings", &RingParams::max_rings, {1});
+  s.advanced("heights", &RingParams::heights, {1});
+  s.advanced("radii", &RingParams::radii, {1});
+  s.advanced("max_sections", &RingParams::max_sections, {1});
 }
 
 std::optional<Certificate> Ring::prove(const SeparationQuery& query, const RunContext& context) const {

@@ -9,9 +9,12 @@
 namespace dismantle::immobility {
 
 struct RingParams {
+  /// Circles that are tried within each solid, the largest first. Larger circles pass fewer openings.
   std::int64_t max_rings = 2;
+  /// Positions along each axis of a part at which a circle is searched. Too few may miss thin rims.
   std::int64_t heights = 24;
-  std::int64_t radii = 32;
+  std::int64_t radii = 32;  ///< Radii that are tried at each position. More radii find a circle closer to the largest.
+  /// Approximate number of planes across the axis in which the openings of a chamber are searched.
   std::int64_t max_sections = 150;
   static void describe(Schema<RingParams>& s);
 };

@@ -8,27 +8,11 @@
 namespace dismantle::immobility {
 
 void SpoolParams::describe(Schema<SpoolParams>& s) {
-  s.add("max_rings", &SpoolParams::max_rings,
-        {.unit = "1", .min = 1, .doc = "Circles that are tried about each axis of the spool, the narrowest first."});
-  s.add("heights", &SpoolParams::heights,
-        {.unit = "1",
-         .min = 1,
-         .doc = "Advanced. Positions along each axis of the spool at which a circle is searched. Too few may miss thin "
-                "plates."});
-  s.add("radii", &SpoolParams::radii,
-        {.unit = "1",
-         .min = 2,
-         .doc = "Advanced. Radii that are tried at each position. More radii find a circle closer to the narrowest."});
-  s.add("max_sections", &SpoolParams::max_sections,
-        {.unit = "1",
-         .min = 1,
-         .doc = "Advanced. Approximate number of planes across the axis in which rims are searched."});
-  s.add("max_dent", &SpoolParams::max_dent,
-        {.unit = "verify.max_penetration",
-         .min = 0,
-         .min_open = true,
-         .doc = "Advanced. Distance by which a rim may differ from a convex curve. The circle must be deeper by the "
-                "same amount."});
+  s.advanced("max_rings", &SpoolParams::max_rings, {1});
+  s.advanced("heights", &SpoolParams::heights, {1});
+  s.advanced("radii", &SpoolParams::radii, {2});
+  s.advanced("max_sections", &SpoolParams::max_sections, {1});
+  s.advanced("max_dent", &SpoolParams::max_dent, {.min = 0, .min_open = true});
 }
 
 std::optional<Certificate> Spool::prove(const SeparationQuery& query, const RunContext& context) const {

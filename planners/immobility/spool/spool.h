@@ -9,11 +9,15 @@
 namespace dismantle::immobility {
 
 struct SpoolParams {
-  std::int64_t max_rings = 4;
+  std::int64_t max_rings = 4;  ///< Circles that are tried about each axis of the spool, the narrowest first.
+  /// Positions along each axis of the spool at which a circle is searched. Too few may miss thin plates.
   std::int64_t heights = 24;
+  /// Radii that are tried at each position. More radii find a circle closer to the narrowest.
   std::int64_t radii = 128;
-  std::int64_t max_sections = 150;
-  double max_dent = 0.01;  ///< tolerances
+  std::int64_t max_sections = 150;  ///< Approximate number of planes across the axis in which rims are searched.
+  /// Distance by which a rim may differ from a convex curve, in multiples of verify.max_penetration. The circle must be
+  /// deeper by the same amount.
+  double max_dent = 0.01;
   static void describe(Schema<SpoolParams>& s);
 };
 

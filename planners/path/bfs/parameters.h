@@ -14,10 +14,14 @@ enum class Order { first_come, longest_first };
 
 struct Parameters : push::SearchParameters {
   Variant variant = Variant::shared;
+  /// Order of the states of one level under `variant: published`. first_come: in the order in which they were reached;
+  /// longest_first: those with the longest way from the start first.
   Order order = Order::longest_first;
-  double torque = 0;
+  double torque = 0;  ///< Torque of each action with `variant: published`. 0: `force` times the part's radius (N unit).
+  /// With `variant: published`: two ends of runs are one state if they are nearer than this, and rotated by less than
+  /// `distinct_rotation` (assembly units).
   double distinct_translation = 0.05;
-  double distinct_rotation = 0.2;
+  double distinct_rotation = 0.2;  ///< Rotation limit for `distinct_translation` (rad).
 
   static void describe(Schema<Parameters>& s) {
     s.add_choice<Variant>(
@@ -28,24 +32,11 @@ struct Parameters : push::SearchParameters {
           "`translation_nodes`, `rotation_nodes`"}},
         "How the tree of states is searched.");
     push::describe_search(s);
-    s.add_choice<Order>("order", &Parameters::order,
-                        {{"first_come", Order::first_come, "in the order in which they were reached"},
-                         {"longest_first", Order::longest_first, "those with the longest way from the start first"}},
-                        "Order of the states of one level under `variant: published`.");
-    s.add("torque", &Parameters::torque,
-          {.unit = "N unit",
-           .min = 0,
-           .doc = "Torque of each action with `variant: published`. 0: `force` times the part's radius."});
-    s.add("distinct_translation", &Parameters::distinct_translation,
-          {.unit = "unit",
-           .min = 0,
-           .min_open = true,
-           .doc =
-               "With `variant: published`: two ends of runs are one state if they are nearer than this, and rotated by "
-               "less than `distinct_rotation`."});
-    s.add("distinct_rotation", &Parameters::distinct_rotation,
-          {.unit = "rad", .min = 0, .max = 3.2, .min_open = true, .doc = "Rotation limit for `distinct_translation`."});
-    push::describe_effort(s);
+    s.advanced("order", &Parameters::order,
+               {{"first_come", Order::first_come}, {"longest_first", Order::longest_first}});
+    s.advanced("torque", &Parameters::torque, {0});
+    s.advanced("distinct_translation", &Parameters::distinct_translation, {.min = 0, .min_open = true});
+    s.advanced("distinct_rotation", &Parameters::distinct_rotation, {.min = 0, .max = 3.2, .min_open = true});
   }
 
   push::Tactics tactics() const {

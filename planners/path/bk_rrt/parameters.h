@@ -17,8 +17,10 @@ struct Parameters {
   double force = 100;
   // Where Algorithm 4 leaves a choice; see README.md.
   Actions actions = Actions::sphere;
+  /// Poses that the rest of the path reproduces to within this distance are dropped (assembly units).
   double thinning = 1e-4;
   std::int64_t level_steps = 20'000;
+  /// Simulated time steps of the first turn of each tree, with `motion: auto`. Each round doubles them.
   std::int64_t first_turn = 4'000;
 
   static void describe(Schema<Parameters>& s) {
@@ -43,15 +45,9 @@ struct Parameters {
         {{"sphere", Actions::sphere, "any direction, uniformly; with rotation any wrench of that size"},
          {"axes", Actions::axes, "one of the 6 (with rotation 12) unit actions of bfs"}},
         "Distribution of random actions.");
-    path::add_thinning(s, &Parameters::thinning);
+    s.advanced("thinning", &Parameters::thinning, {0, 0.01});
     path::add_level_steps(s, &Parameters::level_steps);
-    s.add("first_turn", &Parameters::first_turn,
-          {.unit = "1",
-           .min = 1,
-           .max = 1e12,
-           .doc =
-               "Advanced. Simulated time steps of the first turn of each tree, with `motion: auto`. Each round doubles "
-               "them."});
+    s.advanced("first_turn", &Parameters::first_turn, {1, 1e12});
   }
 };
 

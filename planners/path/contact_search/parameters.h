@@ -20,7 +20,6 @@ struct Parameters : push::SearchParameters, push::ProposalParameters {
           {.doc = "When turning, first try the screw motions that the surfaces in contact allow. Off: the axes only."});
     s.add("novelty", &Parameters::novelty,
           {.doc = "First expand states that differ from the states expanded before. Off: first in, first out."});
-    push::describe_effort(s);
     push::describe_proposals(s);
   }
 

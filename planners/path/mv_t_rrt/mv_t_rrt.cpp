@@ -8,27 +8,20 @@ namespace {
 
 struct Parameters : sampling::TreeParameters {
   Parameters() { goal_bias = 0.2; }
+  /// Fixed parts whose boxes are within this distance of the moving part's box are its neighbours. Larger: more
+  /// directions are tried (assembly units).
   double neighbor_reach = 0.05;
+  /// Face normals that differ by less are one mating vector. Larger: fewer directions, some of them inexact (rad).
   double merge_angle = 0.01;
-  std::int64_t max_vectors = 256;
+  std::int64_t max_vectors = 256;  ///< Maximum number of mating vectors tried, those of the largest faces first.
 
   static void describe(Schema<Parameters>& s) {
     sampling::describe_tree(s,
                             "Probability of extending a node towards the nearest state outside "
                             "the bounding box of the fixed parts (table 7).");
-    s.add("neighbor_reach", &Parameters::neighbor_reach,
-          {.unit = "unit",
-           .min = 0,
-           .doc = "Fixed parts whose boxes are within this distance of the moving part's box are its neighbours. "
-                  "Larger: more directions are tried."});
-    s.add("merge_angle", &Parameters::merge_angle,
-          {.unit = "rad",
-           .min = 0,
-           .max = 1.5,
-           .doc = "Face normals that differ by less are one mating vector. Larger: fewer directions, some of them "
-                  "inexact."});
-    s.add("max_vectors", &Parameters::max_vectors,
-          {.unit = "1", .min = 0, .doc = "Maximum number of mating vectors tried, those of the largest faces first."});
+    s.advanced("neighbor_reach", &Parameters::neighbor_reach, {0});
+    s.advanced("merge_angle", &Parameters::merge_angle, {0, 1.5});
+    s.advanced("max_vectors", &Parameters::max_vectors, {0});
   }
 };
 

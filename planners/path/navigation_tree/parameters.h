@@ -11,11 +11,14 @@ namespace dismantle::navigation_tree {
 struct Parameters : free_space::SearchParameters {
   std::int64_t patience = 4'000;
   std::int64_t detours = 8;
+  /// Under a depth limit below this, `patience` and `detours` are halved for each missing level.
   std::int64_t full_depth = 3;
+  /// `max_refusals` of the second search for a group that is thinner than its initial overlap. That search allows the
+  /// overlap everywhere, so its paths may lead through walls.
   std::int64_t max_refusals_overlapping = 3;
 
   static void describe(Schema<Parameters>& s) {
-    tolerant_walk::describe_poses(s);
+    free_space::describe_search(s);
     s.add(
         "patience", &Parameters::patience,
         {.unit = "1",
@@ -29,24 +32,8 @@ struct Parameters : free_space::SearchParameters {
            .min = 0,
            .max = 1000,
            .doc = "Places that may be blocked before the search gives up. Larger: more routes are tried."});
-    s.add("full_depth", &Parameters::full_depth,
-          {.unit = "1",
-           .min = 0,
-           .max = 64,
-           .doc = "Under a depth limit below this, `patience` and `detours` are halved for each missing level."});
-    free_space::describe_effort(s);
-    free_space::describe_grid(s);
-    free_space::describe_growth(s);
-    tolerant_walk::describe_extensions(s);
-    tolerant_walk::describe_samples(s);
-    tolerant_walk::describe_paths(s);
-    s.add(
-        "max_refusals_overlapping", &Parameters::max_refusals_overlapping,
-        {.unit = "1",
-         .min = 1,
-         .max = 1e6,
-         .doc = "`max_refusals` of the second search for a group that is thinner than its initial overlap. That search "
-                "allows the overlap everywhere, so its paths may lead through walls."});
+    s.advanced("full_depth", &Parameters::full_depth, {0, 64});
+    s.advanced("max_refusals_overlapping", &Parameters::max_refusals_overlapping, {1, 1e6});
   }
 
   /// `overlapping`: for the second search of a thin group.

@@ -12,8 +12,10 @@ using sampling::SamplingProblem;
 struct Parameters : sampling::SpaceParameters {
   std::int64_t goals = 20;
   std::int64_t neighbours = 8;
+  /// Probability of expanding a milestone whose motions were mostly blocked, instead of sampling. Larger: more work in
+  /// narrow passages.
   double expansion = 0.3;
-  double gaussian = 0.3;
+  double gaussian = 0.3;  ///< Share of the samples that are drawn near obstacles; the others are uniform.
 
   static void describe(Schema<Parameters>& s) {
     sampling::describe_motion(s);
@@ -28,17 +30,8 @@ struct Parameters : sampling::SpaceParameters {
            .max = 1000,
            .doc = "Nearest milestones to which connections from a new one are tried. More: paths are found with fewer "
                   "milestones, but each milestone costs more state checks."});
-    s.add("expansion", &Parameters::expansion,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .doc = "Probability of expanding a milestone whose motions were mostly blocked, instead of sampling. "
-                  "Larger: more work in narrow passages."});
-    s.add("gaussian", &Parameters::gaussian,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .doc = "Share of the samples that are drawn near obstacles; the others are uniform."});
+    s.advanced("expansion", &Parameters::expansion, {0, 1});
+    s.advanced("gaussian", &Parameters::gaussian, {0, 1});
     sampling::describe_space(s, "Longest extension of a milestone, and deviation of the samples near obstacles.");
   }
 };

@@ -15,15 +15,8 @@ void MctsParams::describe(Schema<MctsParams>& s) {
        .min = 0,
        .max = 1e3,
        .doc = "Weight of rarely visited parts against parts of high value: the constant of UCT. 0 = only the value."});
-  s.add("discount", &MctsParams::discount,
-        {.unit = "1",
-         .min = 0,
-         .max = 1,
-         .min_open = true,
-         .doc = "Factor on the value of a removal for each search of mean cost before it. Smaller: prefers cheap "
-                "searches; 1 ignores costs."});
-  s.add("horizon", &MctsParams::horizon,
-        {.unit = "1", .min = 1, .max = 1e6, .doc = "Largest number of searches in one simulated order."});
+  s.advanced("discount", &MctsParams::discount, {.min = 0, .max = 1, .min_open = true});
+  s.advanced("horizon", &MctsParams::horizon, {1, 1e6});
   s.add("max_depth", &MctsParams::max_depth,
         {.unit = "1", .min = 0, .max = 1e6, .doc = "Largest depth of the path search; 0 = no limit."});
   s.add("max_attempts", &MctsParams::max_attempts,

@@ -13,8 +13,10 @@ namespace dismantle {
 struct MctsParams {
   std::int64_t simulations = 200;
   double exploration = 0.7;
+  /// Factor on the value of a removal for each search of mean cost before it. Smaller: prefers cheap searches; 1
+  /// ignores costs.
   double discount = 0.9;
-  unsigned horizon = 64;
+  unsigned horizon = 64;  ///< Largest number of searches in one simulated order.
   unsigned max_depth = 0;
   std::int64_t max_attempts = 0;
   static void describe(Schema<MctsParams>& schema);

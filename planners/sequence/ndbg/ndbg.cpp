@@ -15,11 +15,7 @@
 namespace dismantle {
 
 void NdbgParams::describe(Schema<NdbgParams>& s) {
-  s.add_choice("order", &NdbgParams::order,
-               {{"small_first", PartOrder::small_first, "ascending volume: screws and pins before the housing"},
-                {"as_given", PartOrder::as_given, "as the assembly lists its parts"},
-                {"large_first", PartOrder::large_first, "descending volume"}},
-               "Order in which parts are removed when several are free.");
+  s.add_choice("order", &NdbgParams::order, part_orders(), "Order in which parts are removed when several are free.");
   s.add("circles", &NdbgParams::circles,
         {.unit = "1",
          .min = 0,
@@ -33,10 +29,7 @@ void NdbgParams::describe(Schema<NdbgParams>& s) {
                "Cells of the arrangement that are examined.");
   s.add("groups", &NdbgParams::groups,
         {.doc = "When no single part is free, remove the smallest free subassembly and disassemble it separately."});
-  s.add("group_proposals", &NdbgParams::group_proposals,
-        {.unit = "1",
-         .min = 1,
-         .doc = "Largest number of subassemblies proposed to the verifier before a group of parts is given up."});
+  s.advanced("group_proposals", &NdbgParams::group_proposals, {1});
   s.add("searches", &NdbgParams::searches,
         {.doc = "When no translation removes anything, run the path planner for each part, one level deeper in every "
                 "round. Off: blocking graphs alone."});

@@ -17,6 +17,7 @@ struct NdbgParams {
   unsigned circles = 6;
   NdbgCells cells = NdbgCells::faces;
   bool groups = true;
+  /// Largest number of subassemblies proposed to the verifier before a group of parts is given up.
   unsigned group_proposals = 8;
   bool searches = false;
   unsigned max_depth = 0;

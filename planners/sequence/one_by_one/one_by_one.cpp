@@ -8,6 +8,12 @@
 
 namespace dismantle {
 
+std::vector<EnumChoice<PartOrder>> part_orders() {
+  return {{"small_first", PartOrder::small_first, "ascending volume: screws and pins before the housing"},
+          {"as_given", PartOrder::as_given, "as the assembly lists its parts"},
+          {"large_first", PartOrder::large_first, "descending volume"}};
+}
+
 std::vector<PlacedPart> ordered_group(const Assembly& assembly, std::vector<PlacedPart> group, PartOrder order) {
   const auto volume = [&](const PlacedPart& p) { return assembly.parts[p.part].volume; };
   const auto smaller = [&](const PlacedPart& a, const PlacedPart& b) { return volume(a) < volume(b); };

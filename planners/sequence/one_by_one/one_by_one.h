@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "dismantle/parameters.h"
 #include "dismantle/sequence_planner.h"
 #include "preference/preference.h"
 
@@ -14,6 +15,8 @@ namespace dismantle {
 
 /// In which order parts are tried.
 enum class PartOrder { small_first, as_given, large_first };
+/// Their names in configurations.
+std::vector<EnumChoice<PartOrder>> part_orders();
 
 /// The parts of a group in that order. Parts of equal volume stay in the order of the group.
 std::vector<PlacedPart> ordered_group(const Assembly& assembly, std::vector<PlacedPart> group, PartOrder order);

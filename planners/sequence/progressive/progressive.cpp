@@ -6,10 +6,7 @@
 namespace dismantle {
 
 void ProgressiveParams::describe(Schema<ProgressiveParams>& schema) {
-  schema.add_choice("order", &ProgressiveParams::order,
-                    {{"small_first", PartOrder::small_first, "ascending volume: screws and pins before the housing"},
-                     {"as_given", PartOrder::as_given, "as the assembly lists its parts"},
-                     {"large_first", PartOrder::large_first, "descending volume"}},
+  schema.add_choice("order", &ProgressiveParams::order, part_orders(),
                     "Order in which the parts left are tried within a round.");
   schema.add("max_depth", &ProgressiveParams::max_depth,
              {.unit = "1",

@@ -5,10 +5,7 @@
 namespace dismantle {
 
 void QueueParams::describe(Schema<QueueParams>& schema) {
-  schema.add_choice("order", &QueueParams::order,
-                    {{"small_first", PartOrder::small_first, "ascending volume: screws and pins before the housing"},
-                     {"as_given", PartOrder::as_given, "as the assembly lists its parts"},
-                     {"large_first", PartOrder::large_first, "descending volume"}},
+  schema.add_choice("order", &QueueParams::order, part_orders(),
                     "Order in which the parts stand in the queue at the beginning.");
 }
 

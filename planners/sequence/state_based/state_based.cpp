@@ -13,10 +13,7 @@
 namespace dismantle {
 
 void StateBasedParams::describe(Schema<StateBasedParams>& s) {
-  s.add_choice("order", &StateBasedParams::order,
-               {{"small_first", PartOrder::small_first, "ascending volume: screws and pins before the housing"},
-                {"as_given", PartOrder::as_given, "as the assembly lists its parts"},
-                {"large_first", PartOrder::large_first, "descending volume"}},
+  s.add_choice("order", &StateBasedParams::order, part_orders(),
                "Order in which translations are tried, and searches of parts with equal evaluation.");
   s.add_choice("evaluation", &StateBasedParams::evaluation,
                {{"fewest_blockers", StateBasedEvaluation::fewest_blockers,
@@ -29,33 +26,12 @@ void StateBasedParams::describe(Schema<StateBasedParams>& s) {
          .max = 1e5,
          .doc = "Largest number of motion states of one part. Paths of many short translations need more; time grows "
                 "in proportion."});
-  s.add("stops", &StateBasedParams::stops,
-        {.unit = "1",
-         .min = 1,
-         .max = 100,
-         .doc = "Number of states that one translation leads to: at contact, and evenly spaced before it. Openings "
-                "beside the path are found only with more than one."});
-  s.add("halvings", &StateBasedParams::halvings,
-        {.unit = "1",
-         .min = 1,
-         .max = 50,
-         .doc = "Bisections to find where a translation meets a part: 12 resolve a 4096th of its length."});
-  s.add("retreat", &StateBasedParams::retreat,
-        {.unit = "verify.max_penetration",
-         .min = 0,
-         .max = 1e6,
-         .doc = "Distance before contact at which a translation stops."});
-  s.add("least_step", &StateBasedParams::least_step,
-        {.unit = "verify.max_penetration",
-         .min = 0,
-         .max = 1e6,
-         .min_open = true,
-         .doc = "Shortest translation that is kept, and least distance between two states."});
+  s.advanced("stops", &StateBasedParams::stops, {1, 100});
+  s.advanced("halvings", &StateBasedParams::halvings, {1, 50});
+  s.advanced("retreat", &StateBasedParams::retreat, {0, 1e6});
+  s.advanced("least_step", &StateBasedParams::least_step, {.min = 0, .max = 1e6, .min_open = true});
   s.add("groups", &StateBasedParams::groups, {.doc = "When no single part is free, remove the smallest free group."});
-  s.add("group_proposals", &StateBasedParams::group_proposals,
-        {.unit = "1",
-         .min = 1,
-         .doc = "Largest number of subassemblies proposed to the verifier before a group of parts is given up."});
+  s.advanced("group_proposals", &StateBasedParams::group_proposals, {1});
   s.add("searches", &StateBasedParams::searches,
         {.doc = "When translations remove nothing, run the path planner for each part, one level deeper in every "
                 "round. Only these searches find rotations."});

@@ -15,11 +15,16 @@ struct StateBasedParams {
   PartOrder order = PartOrder::small_first;
   StateBasedEvaluation evaluation = StateBasedEvaluation::fewest_blockers;
   unsigned states = 24;
+  /// Number of states that one translation leads to: at contact, and evenly spaced before it. Openings beside the path
+  /// are found only with more than one.
   unsigned stops = 1;
-  unsigned halvings = 12;
+  unsigned halvings = 12;  ///< Bisections to find where a translation meets a part: 12 resolve a 4096th of its length.
+  /// Distance before contact at which a translation stops, in multiples of verify.max_penetration.
   double retreat = 1;
+  /// Shortest translation that is kept, and least distance between two states, in multiples of verify.max_penetration.
   double least_step = 20;
   bool groups = false;
+  /// Largest number of subassemblies proposed to the verifier before a group of parts is given up.
   unsigned group_proposals = 8;
   bool searches = true;
   bool resume = true;

@@ -12,9 +12,12 @@ struct Parameters {
   double clearance = 0.1;
   double range = 2;
   double step = 0.05;
+  /// Share of verify.max_penetration, above the initial overlap, at which a state counts as colliding.
   double tolerance_share = 0.4;
   bool simplify = true;
   std::int64_t max_checks = 30'000;
+  /// Number of refused paths after which the search ends. Where simulator and verifier disagree, more paths of the same
+  /// kind rarely help.
   int max_refused = 10;
 
   static void describe(Schema<Parameters>& s) {
@@ -31,22 +34,13 @@ struct Parameters {
            .max = 1,
            .doc = "Distance between checked states of an extension: the largest displacement of any point of the part. "
                   "Smaller steps miss fewer thin obstacles and take more checks."});
-    s.add("tolerance_share", &Parameters::tolerance_share,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .doc = "Share of verify.max_penetration, above the initial overlap, at which a state counts as colliding."});
+    s.advanced("tolerance_share", &Parameters::tolerance_share, {0, 1});
     s.add("simplify", &Parameters::simplify, {.doc = "Replace detours by straight motions where these are free."});
     s.add("max_checks", &Parameters::max_checks,
           {.unit = "1",
            .min = 0,
            .doc = "Largest number of state checks for one transfer; 0 = only the limits of the run apply."});
-    s.add("max_refused", &Parameters::max_refused,
-          {.unit = "1",
-           .min = 1,
-           .max = 1e6,
-           .doc = "Number of refused paths after which the search ends. Where simulator and verifier disagree, more "
-                  "paths of the same kind rarely help."});
+    s.advanced("max_refused", &Parameters::max_refused, {1, 1e6});
   }
 };
 

@@ -9,30 +9,24 @@ namespace dismantle::sdf {
 /// Base of parameter structs.
 struct ContactParameters {
   double contact_spacing = 0.1;
+  /// Depth error of contact, as a share of verify.max_penetration: deeper states are corrected, and a contact nearer to
+  /// a convex edge uses both faces. Smaller values are more accurate and slower.
   double contact_depth = 0.02;
+  /// Depth that a pair may have beyond its initial overlap, as a share of verify.max_penetration. The overlap of the
+  /// facets of round fits varies as they slide.
   double facet_share = 0.3;
 };
 
 /// For a P that derives from ContactParameters.
 template <class P>
 void describe_points(Schema<P>& s) {
-  s.add("contact_spacing", static_cast<double P::*>(&ContactParameters::contact_spacing),
+  s.add("contact_spacing", &ContactParameters::contact_spacing,
         {.unit = "unit",
          .min = 1e-3,
          .max = 10,
          .doc = "Distance of contact points along edges. It adapts to the thinnest part by at most a factor of 2."});
-  s.add("contact_depth", static_cast<double P::*>(&ContactParameters::contact_depth),
-        {.unit = "max_penetration",
-         .min = 1e-3,
-         .max = 0.5,
-         .doc = "Advanced. Depth error of contact, as a share of verify.max_penetration: deeper states are corrected, "
-                "and a contact nearer to a convex edge uses both faces. Smaller values are more accurate and slower."});
-  s.add("facet_share", static_cast<double P::*>(&ContactParameters::facet_share),
-        {.unit = "max_penetration",
-         .min = 0,
-         .max = 1,
-         .doc = "Advanced. Depth that a pair may have beyond its initial overlap, as a share of "
-                "verify.max_penetration. The overlap of the facets of round fits varies as they slide."});
+  s.advanced("contact_depth", &ContactParameters::contact_depth, {1e-3, 0.5});
+  s.advanced("facet_share", &ContactParameters::facet_share, {0, 1});
 }
 
 template <class P>

@@ -25,16 +25,19 @@ struct SpaceParameters {
   Motion motion = Motion::automatic;
   double range = 1;
   double step = 0.01;
+  /// Share of verify.max_penetration, beyond the initial overlap, above which a state counts as colliding. Table 7 uses
+  /// all of it. Smaller: the verifier refuses fewer paths.
   double tolerance_share = 0.4;
   bool simplify = true;
   std::int64_t level_checks = 1'000;
+  /// State checks of the first turn of each space, with `motion: auto`. Each round doubles them.
   std::int64_t first_turn = 4'000;
 };
 
 /// Declares `motion` for a struct that derives from SpaceParameters.
 template <class P>
 void describe_motion(Schema<P>& s) {
-  s.template add_choice<Motion>("motion", path::inherited<P>(&SpaceParameters::motion),
+  s.template add_choice<Motion>("motion", &SpaceParameters::motion,
                                 {{"translation", Motion::translation, "R3, orientation locked"},
                                  {"rotation", Motion::rotation, "SE(3)"},
                                  {"auto", Motion::automatic, "R3 and SE(3) in turns"}},
@@ -44,33 +47,22 @@ void describe_motion(Schema<P>& s) {
 /// Declares all others. `range_doc`: what `range` limits.
 template <class P>
 void describe_space(Schema<P>& s, const std::string& range_doc) {
-  using path::inherited;
-  s.add("range", inherited<P>(&SpaceParameters::range), {.unit = "unit", .min = 0, .min_open = true, .doc = range_doc});
+  s.add("range", &SpaceParameters::range, {.unit = "unit", .min = 0, .min_open = true, .doc = range_doc});
   s.add(
-      "step", inherited<P>(&SpaceParameters::step),
+      "step", &SpaceParameters::step,
       {.unit = "unit",
        .min = 1e-5,
        .max = 1,
        .doc = "Distance between the state checks along a motion (table 7), as the largest displacement of any point of "
               "the part. Smaller: thinner obstacles are detected, but each motion costs more."});
-  s.add("tolerance_share", inherited<P>(&SpaceParameters::tolerance_share),
-        {.unit = "1",
-         .min = 0,
-         .max = 1,
-         .doc = "Share of verify.max_penetration, beyond the initial overlap, above which a state counts as colliding. "
-                "Table 7 uses all of it. Smaller: the verifier refuses fewer paths."});
-  s.add("simplify", inherited<P>(&SpaceParameters::simplify), {.doc = "Replace detours with free straight motions."});
-  s.add("level_checks", inherited<P>(&SpaceParameters::level_checks),
+  s.advanced("tolerance_share", &SpaceParameters::tolerance_share, {0, 1});
+  s.add("simplify", &SpaceParameters::simplify, {.doc = "Replace detours with free straight motions."});
+  s.add("level_checks", &SpaceParameters::level_checks,
         {.unit = "1",
          .min = 1,
          .doc = "Limit of state checks for depth 1 when the sequence planner limits the depth. Each further level "
                 "doubles the limit."});
-  s.add(
-      "first_turn", inherited<P>(&SpaceParameters::first_turn),
-      {.unit = "1",
-       .min = 1,
-       .max = 1e12,
-       .doc = "Advanced. State checks of the first turn of each space, with `motion: auto`. Each round doubles them."});
+  s.advanced("first_turn", &SpaceParameters::first_turn, {1, 1e12});
 }
 
 /// The structure grown in one state space until it holds a path: a tree, two trees, or a roadmap.

@@ -19,8 +19,7 @@ struct TreeParameters : SpaceParameters {
 template <class P>
 void describe_tree(Schema<P>& s, const std::string& goal_doc) {
   describe_motion(s);
-  s.add("goal_bias", path::inherited<P>(&TreeParameters::goal_bias),
-        {.unit = "1", .min = 0, .max = 1, .doc = goal_doc});
+  s.add("goal_bias", &TreeParameters::goal_bias, {.unit = "1", .min = 0, .max = 1, .doc = goal_doc});
   describe_space(
       s, "Longest extension towards a random state, and distance of the nodes towards a goal. Larger: fewer nodes.");
 }

@@ -35,27 +35,53 @@ struct SearchParameters {
   double similarity_rotation = 0.5;
   // Extensions of Algorithm 1; see the README of bfs.
   bool diagonals = true;
+  /// Up to this many states in the middle of runs are expanded when the ends of runs are exhausted (with rotation: any
+  /// number above 0 means all of them, after the ends of the same depth).
   std::int64_t intermediate = 256;
+  /// Poses that the rest of the path reproduces to within this distance are dropped (assembly units).
   double thinning = 1e-4;
-  std::int64_t max_refusals = 8;
+  std::int64_t max_refusals = 8;  ///< Paths that the verifier may refuse before the search gives up.
+  /// Under `motion: auto` and a depth limit: states searched by translations per level of depth.
   std::int64_t translation_nodes = 24;
+  /// Under `motion: auto` and a depth limit: states searched with rotation per level of depth.
   std::int64_t rotation_nodes = 8;
+  /// Under `motion: auto` and a depth limit: simulated steps and state checks per level of depth, by translation and
+  /// again with rotation. Larger: parts that can move far in their play are searched longer.
   std::int64_t level_steps = 2000;
+  /// An end of a run is new unless it is nearer to a known state than this share of `similarity_translation` and
+  /// `similarity_rotation`. Smaller: more states are kept.
   double end_similarity = 0.2;
+  /// Number of stages of actions by which two kinds of states are delayed: those in the middle of runs and, if parts
+  /// move independently, those in which only one part has moved.
   std::int64_t middle_lag = 2;
+  /// Distance by which a part is moved away from its contacts, where possible, before it follows a screw, and along a
+  /// path on which parts drive each other. As a multiple of verify.max_penetration.
   double clearance = 2;
+  /// Surfaces nearer than this count as touching, and penetration up to this counts as zero. As a share of
+  /// verify.max_penetration.
   double touch_distance = 0.1;
 };
 
 /// Parameters of the actions that contacts propose.
 struct ProposalParameters {
+  /// With `novelty`, states nearer to each other than this count as one place. As a multiple of
+  /// `similarity_translation`.
   double place_similarity = 5;
+  /// Normals and directions that differ by less than this angle count as equal, and a direction may point into a
+  /// contact by up to this angle. Set it to more than half the angle between two facets of a round fit (rad).
   double facet_angle = 0.035;
+  /// Largest number of directions per state along which the contacts let the part slide. Those with the shortest way
+  /// out come first.
   std::int64_t free_directions = 8;
+  /// Share of `force` that presses a part against a wall while it slides along the wall, or along its axis while it
+  /// turns.
   double lean = 0.5;
+  /// First distance between two state checks along a screw, and distance between the poses of its path, as a multiple
+  /// of verify.max_penetration. Larger: fewer checks, but thin obstacles are missed, and the verifier refuses the path.
   double glide_step = 20;
+  /// Distance between two state checks along a screw, as a share of the clear length so far. 0: always `glide_step`.
   double glide_growth = 0.25;
-  double glide_kept = 0.75;
+  double glide_kept = 0.75;  ///< A blocked screw is fitted again at this share of its clear length.
 };
 
 /// Everything that a planner sets for the search: its parameters and its stages of actions.
