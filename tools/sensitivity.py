@@ -25,11 +25,10 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-SECTIONS = ("simulator", "path_planner", "sequence_planner", "transfer_planner", "immobility", "force", "verify")
+SECTIONS = ("simulator", "path_planner", "sequence_planner", "transfer_planner", "immobility", "verify")
 SEARCH_ONLY = ("path_planner.", "simulator.")
 ALWAYS_LEFT_OUT = {  # choices of the user, and parameters that matter only under a time limit
-    "verify.max_penetration", "immobility.deadline_share", "force.share", "force.verified_share", "force.quick_margin",
-    "force.overtime"}
+    "verify.max_penetration", "immobility.advanced.deadline_share"}
 
 HEAD = """# Parameters and how much plans depend on them
 
@@ -81,9 +80,12 @@ def make_samples(program, folder, count):
     return made
 
 
-def parameters_of(resolved):
-    """Keys for --set with their values, and lists of plugins by key, from resolved.yaml."""
+def parameters_of(resolved, schema):
+    """Keys for --set with their values, and lists of plugins by key, from resolved.yaml; it has the advanced parameters that differ
+    from their defaults, the schema has the others."""
     path, found, lists = [], collections.OrderedDict(), collections.OrderedDict()
+    for section in SECTIONS:
+        found.update(advanced_of(section, schema["properties"].get(section, {})))
     for line in resolved.splitlines():
         match = re.match(r"( *)(- )?([\w]+): *([^#]*)", line)
         if not match or line.lstrip().startswith("#"):
@@ -94,6 +96,12 @@ def parameters_of(resolved):
             path = [p for p in path if p[0] < depth - 1]
             lists.setdefault(".".join(p[1] for p in path), []).append(value)
             path.append((depth - 1, value))
+        if key == "type":
+            for types in schema["$defs"].values() if item else [schema["properties"].get(path[0][1], {})]:
+                for alternative in types.get("oneOf", []):
+                    if alternative["properties"]["type"]["const"] == value:
+                        found.update(advanced_of(".".join(p[1] for p in path), alternative))
+        if item and key == "type":
             continue
         if value == "":
             path.append((depth, key))
@@ -102,14 +110,22 @@ def parameters_of(resolved):
     return collections.OrderedDict((k, v) for k, v in found.items() if k.split(".")[0] in SECTIONS), lists
 
 
+def advanced_of(key, schema):
+    """Keys of the advanced parameters of a section or plugin, with their defaults as YAML."""
+    known = schema.get("properties", {}).get("advanced", {}).get("properties", {})
+    return {"%s.advanced.%s" % (key, name): json.dumps(spec["default"]) for name, spec in known.items() if "default" in spec}
+
+
 def lists_without_one(parameters, lists):
     """Plugin name in a list -> setting without it, with all others and their parameters."""
     settings = collections.OrderedDict()
     for key, types in lists.items():
         def item(kind):
             prefix = "%s.%s." % (key, kind)
-            values = ["%s: %s" % (k[len(prefix):], v) for k, v in parameters.items() if k.startswith(prefix)]
-            return "{%s}" % ", ".join(["type: " + kind] + values)
+            own = {k[len(prefix):]: v for k, v in parameters.items() if k.startswith(prefix)}
+            values = ["%s: %s" % (k, v) for k, v in own.items() if not k.startswith("advanced.")]
+            advanced = ["%s: %s" % (k[len("advanced."):], v) for k, v in own.items() if k.startswith("advanced.")]
+            return "{%s}" % ", ".join(["type: " + kind] + values + (["advanced: {%s}" % ", ".join(advanced)] if advanced else []))
         for kind in types:
             settings["%s.%s" % (key, kind)] = "%s=[%s]" % (key, ", ".join(item(t) for t in types if t != kind))
     return settings
@@ -264,7 +280,7 @@ def main():
     resolved = (options.output / "plan" / "resolved.yaml").read_text()
     schema = json.loads((ROOT / "docs/reference/dismantle.schema.json").read_text())
     ranges = ranges_of(schema)
-    parameters, lists = parameters_of(resolved)
+    parameters, lists = parameters_of(resolved, schema)
     pending = [(key, "in the list", "out", "left out", setting) for key, setting in lists_without_one(parameters, lists).items()]
     pending += [(key, default, label, value, "%s=%s" % (key, value)) for key, default in parameters.items() if key not in ALWAYS_LEFT_OUT
                 for label, value in variations(key, default, ranges)]
