@@ -1,8 +1,10 @@
 #include "blocking/translation_search.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <unordered_set>
 
@@ -14,26 +16,68 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-using Set = std::uint64_t;  // of parts, by their index in the group
-
-/// One state of the search. Places are relative to those of the group's first part.
-struct Node {
-  std::vector<Vec3> at;
-  std::int64_t parent = -1;
-  Set moved = 0;
-  std::size_t direction = 0;
-  double length = 0;
-};
-
-struct PlacesHash {
-  std::size_t operator()(const std::vector<std::int64_t>& key) const {
-    std::uint64_t h = 0x9e3779b97f4a7c15ULL;
-    for (const std::int64_t v : key) h = (h ^ static_cast<std::uint64_t>(v)) * 0xbf58476d1ce4e5b9ULL, h ^= h >> 29;
-    return static_cast<std::size_t>(h);
-  }
-};
-
 }  // namespace
+
+/// The arrangements that one search has found.
+class TranslationSearch::Arrangements {
+ public:
+  using Set = std::uint64_t;  ///< of parts, by their index in the group
+  static constexpr std::size_t kMostParts = std::numeric_limits<Set>::digits;
+
+  /// `search` outlives this and is prepared for `places`.
+  Arrangements(TranslationSearch& search, const Places& places, bool to_contact)
+      : search_(search), to_contact_(to_contact), free_(places.size() * places.size()) {
+    Node first;
+    for (const auto& [part, at] : places) {
+      ids_.push_back(part);
+      first.at.push_back(at);
+    }
+    everyone_ = count() == kMostParts ? ~Set{0} : (Set{1} << count()) - 1;
+    seen_.insert(search_.key_of_places(first.at));
+    nodes_.push_back(std::move(first));
+  }
+
+  std::size_t size() const { return nodes_.size(); }
+  /// Adds the arrangements that follow an arrangement. Ends early, with the translations that lead there and the last
+  /// one that never ends, if parts can leave.
+  std::optional<std::vector<Translation>> expand(std::size_t node);
+
+ private:
+  /// One arrangement. Places are relative to those of the group's first part.
+  struct Node {
+    std::vector<Vec3> at;
+    std::int64_t parent = -1;
+    Set moved = 0;
+    std::size_t direction = 0;
+    double length = 0;
+  };
+  struct PlacesHash {
+    std::size_t operator()(const std::vector<std::int64_t>& key) const {
+      std::uint64_t h = 0x9e3779b97f4a7c15ULL;
+      for (const std::int64_t v : key) h = (h ^ static_cast<std::uint64_t>(v)) * 0xbf58476d1ce4e5b9ULL, h ^= h >> 29;
+      return static_cast<std::size_t>(h);
+    }
+  };
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+  std::size_t count() const { return ids_.size(); }
+  void measure(const std::vector<Vec3>& at, std::size_t direction);
+  Set taken_along(std::size_t part, double length) const;
+  Set fewest_that_leave() const;
+  double next_flush(const std::vector<Vec3>& at, std::size_t part, std::size_t direction);
+  std::vector<double> lengths_of(const std::vector<Vec3>& at, std::size_t part, std::size_t direction);
+  void add(std::size_t parent, Set moved, std::size_t direction, double length);
+  std::vector<PartId> parts_of(Set set) const;
+  std::vector<Translation> unwind(std::size_t node, Set leaving, std::size_t direction) const;
+
+  TranslationSearch& search_;
+  const bool to_contact_;  ///< parts also stop where they meet others
+  std::vector<PartId> ids_;
+  Set everyone_;
+  std::vector<Node> nodes_;
+  std::unordered_set<std::vector<std::int64_t>, PlacesHash> seen_;
+  std::vector<double> free_;  ///< by pair: length that the first can move until it meets the second
+};
 
 /// Parts are thinner by the inset. Half of it remains between parts where they stop; passing closer counts as contact.
 double TranslationSearch::gap() const { return 0.5 * params_.translation_inset * tolerance_; }
@@ -67,7 +111,7 @@ bool TranslationSearch::is_simple(const Polyhedron& body) const {
 
 /// Computes shapes and directions for a group. False: the search is not suited to it.
 bool TranslationSearch::prepare(const Places& places) {
-  if (places.size() > std::numeric_limits<Set>::digits) return false;
+  if (places.size() > Arrangements::kMostParts) return false;
   for (const auto& [part, at] : places) {
     const auto known = shapes_.find(part);
     if (known != shapes_.end()) {
@@ -158,131 +202,147 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
   return both;
 }
 
+/// Measures how far each part can move along a direction until it meets each other part.
+void TranslationSearch::Arrangements::measure(const std::vector<Vec3>& at, std::size_t direction) {
+  for (std::size_t i = 0; i < count(); ++i)
+    for (std::size_t j = 0; j < count(); ++j)
+      free_[i * count() + j] = i == j ? kInfinity : search_.free_distance(ids_[i], ids_[j], at[i] - at[j], direction);
+}
+
+/// All parts that move when a part moves by `length`: each part takes along the parts that it runs into.
+TranslationSearch::Arrangements::Set TranslationSearch::Arrangements::taken_along(std::size_t part,
+                                                                                  double length) const {
+  Set set = Set{1} << part;
+  std::vector<std::size_t> open{part};
+  while (!open.empty()) {
+    const std::size_t g = open.back();
+    open.pop_back();
+    for (std::size_t j = 0; j < count(); ++j)
+      if ((set >> j & 1) == 0 && free_[g * count() + j] < length) {
+        set |= Set{1} << j;
+        open.push_back(j);
+      }
+  }
+  return set;
+}
+
+/// The smallest set of parts that can leave; empty if none can.
+TranslationSearch::Arrangements::Set TranslationSearch::Arrangements::fewest_that_leave() const {
+  Set best = 0;
+  for (std::size_t i = 0; i < count(); ++i) {
+    const Set leaving = taken_along(i, kInfinity);
+    if (leaving != everyone_ && (best == 0 || std::popcount(leaving) < std::popcount(best))) best = leaving;
+  }
+  return best;
+}
+
+/// Distance to the next place where a face of a part is flush with another part's face of equal normal.
+double TranslationSearch::Arrangements::next_flush(const std::vector<Vec3>& at, std::size_t part,
+                                                   std::size_t direction) {
+  const double least = search_.params_.translation_least_step * search_.tolerance_;
+  double next = kInfinity;
+  for (std::size_t j = 0; j < count(); ++j) {
+    if (j == part) continue;
+    const double along = (at[j] - at[part]).dot(search_.directions_[direction]);
+    for (const std::size_t side : {direction, Directions::opposite(direction)}) {
+      const double sign = side == direction ? 1 : -1;
+      for (const double a : search_.shape(ids_[part]).planes[side])
+        for (const double b : search_.shape(ids_[j]).planes[side]) {
+          const double length = sign * (b - a) + along;
+          if (length > least && length < next) next = length;
+        }
+    }
+  }
+  return next;
+}
+
+/// The lengths by which a part is translated.
+std::vector<double> TranslationSearch::Arrangements::lengths_of(const std::vector<Vec3>& at, std::size_t part,
+                                                                std::size_t direction) {
+  const double next = next_flush(at, part, direction);
+  std::vector<double> lengths;
+  if (next < kInfinity) lengths.push_back(next);
+  if (!to_contact_) return lengths;
+  const auto row = free_.begin() + static_cast<std::ptrdiff_t>(part * count());
+  const double meets = *std::min_element(row, row + static_cast<std::ptrdiff_t>(count()));
+  const double play = search_.params_.play * search_.tolerance_, stop = meets - search_.gap();
+  if (meets < next && stop > play && next - meets > play) lengths.push_back(stop);
+  return lengths;
+}
+
+void TranslationSearch::Arrangements::add(std::size_t parent, Set moved, std::size_t direction, double length) {
+  Node node;
+  node.at = nodes_[parent].at;
+  for (std::size_t k = 0; k < count(); ++k)
+    if (moved >> k & 1) node.at[k] += length * search_.directions_[direction];
+  if (!seen_.insert(search_.key_of_places(node.at)).second) return;
+  node.parent = static_cast<std::int64_t>(parent);
+  node.moved = moved;
+  node.direction = direction;
+  node.length = length;
+  nodes_.push_back(std::move(node));
+}
+
+std::optional<std::vector<Translation>> TranslationSearch::Arrangements::expand(std::size_t node) {
+  const std::vector<Vec3> at = nodes_[node].at;
+  for (std::size_t d = 0; d < search_.directions_.size(); ++d) {
+    measure(at, d);
+    if (const Set leaving = fewest_that_leave(); leaving != 0) return unwind(node, leaving, d);
+    std::set<std::pair<Set, std::int64_t>> tried;
+    for (std::size_t i = 0; i < count(); ++i)
+      for (const double length : lengths_of(at, i, d)) {
+        const Set moved = taken_along(i, length);
+        if (moved != everyone_ && tried.insert({moved, search_.grid(length)}).second) add(node, moved, d, length);
+      }
+  }
+  return std::nullopt;
+}
+
+std::vector<PartId> TranslationSearch::Arrangements::parts_of(Set set) const {
+  std::vector<PartId> parts;
+  for (std::size_t i = 0; i < count(); ++i)
+    if (set >> i & 1) parts.push_back(ids_[i]);
+  return parts;
+}
+
+/// The translations from the first arrangement to this one, and then `leaving` along `direction`.
+std::vector<Translation> TranslationSearch::Arrangements::unwind(std::size_t node, Set leaving,
+                                                                 std::size_t direction) const {
+  std::vector<Translation> translations{{parts_of(leaving), search_.directions_[direction], kInfinity}};
+  for (const Node* step = &nodes_[node]; step->parent >= 0; step = &nodes_[static_cast<std::size_t>(step->parent)])
+    translations.push_back({parts_of(step->moved), search_.directions_[step->direction], step->length});
+  std::reverse(translations.begin(), translations.end());
+  // Merge consecutive translations of the same parts along the same direction.
+  for (std::size_t k = 0; k + 1 < translations.size();) {
+    Translation &a = translations[k], &b = translations[k + 1];
+    if (a.parts == b.parts && a.direction == b.direction) {
+      a.length += b.length;
+      translations.erase(translations.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+    } else {
+      ++k;
+    }
+  }
+  return translations;
+}
+
 TranslationSearch::Answer TranslationSearch::search(const Places& places, std::size_t most_states, bool to_contact,
                                                     const RunContext& context) {
+  Arrangements arrangements(*this, places, to_contact);
   Answer answer;
-  const std::size_t n = places.size();
-  std::vector<PartId> id;
-  Node first;
-  for (const auto& [part, at] : places) {
-    id.push_back(part);
-    first.at.push_back(at);
-  }
-  const Set everyone = n == std::numeric_limits<Set>::digits ? ~Set{0} : (Set{1} << n) - 1;
-
-  const double play = params_.play * tolerance_;
-  const double stand_off = gap();
-  std::vector<Node> nodes{first};
-  std::unordered_set<std::vector<std::int64_t>, PlacesHash> seen{key_of_places(first.at)};
-  std::vector<double> free(n * n);
-  const auto unwind = [&](std::size_t node, Set leaving, std::size_t direction) {
-    const auto parts_of = [&](Set set) {
-      std::vector<PartId> parts;
-      for (std::size_t i = 0; i < n; ++i)
-        if (set >> i & 1) parts.push_back(id[i]);
-      return parts;
-    };
-    answer.translations.push_back({parts_of(leaving), directions_[direction], std::numeric_limits<double>::infinity()});
-    for (std::int64_t k = static_cast<std::int64_t>(node); nodes[static_cast<std::size_t>(k)].parent >= 0;
-         k = nodes[static_cast<std::size_t>(k)].parent) {
-      const Node& step = nodes[static_cast<std::size_t>(k)];
-      answer.translations.push_back({parts_of(step.moved), directions_[step.direction], step.length});
-    }
-    std::reverse(answer.translations.begin(), answer.translations.end());
-    // Merge consecutive translations of the same parts along the same direction.
-    for (std::size_t k = 0; k + 1 < answer.translations.size();) {
-      Translation &a = answer.translations[k], &b = answer.translations[k + 1];
-      if (a.parts == b.parts && a.direction == b.direction) {
-        a.length += b.length;
-        answer.translations.erase(answer.translations.begin() + static_cast<std::ptrdiff_t>(k) + 1);
-      } else {
-        ++k;
-      }
-    }
-    answer.end = End::found;
-  };
-
-  for (std::size_t current = 0; current < nodes.size(); ++current) {
+  for (std::size_t current = 0; current < arrangements.size(); ++current) {
     if (context.should_stop()) {
       answer.end = End::stopped;
       return answer;
     }
     answer.states = current + 1;
-    if (current >= most_states) {
-      answer.end = End::limit;
+    if (current >= most_states || work_ > most_work_) {
+      answer.end = current >= most_states ? End::limit : End::too_long;
       return answer;
     }
-    if (work_ > most_work_) {
-      answer.end = End::too_long;
+    if (auto translations = arrangements.expand(current)) {
+      answer.translations = std::move(*translations);
+      answer.end = End::found;
       return answer;
-    }
-    const std::vector<Vec3> at = nodes[current].at;
-    for (std::size_t d = 0; d < directions_.size(); ++d) {
-      for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j)
-          free[i * n + j] =
-              i == j ? std::numeric_limits<double>::infinity() : free_distance(id[i], id[j], at[i] - at[j], d);
-      /// All parts that move when part i moves by `length`: each part takes along the parts that it runs into.
-      const auto taken_along = [&](std::size_t i, double length) {
-        Set set = Set{1} << i;
-        std::vector<std::size_t> open{i};
-        while (!open.empty()) {
-          const std::size_t g = open.back();
-          open.pop_back();
-          for (std::size_t j = 0; j < n; ++j)
-            if ((set >> j & 1) == 0 && free[g * n + j] < length) {
-              set |= Set{1} << j;
-              open.push_back(j);
-            }
-        }
-        return set;
-      };
-      Set best = 0;
-      for (std::size_t i = 0; i < n; ++i) {
-        const Set leaving = taken_along(i, std::numeric_limits<double>::infinity());
-        if (leaving != everyone && (best == 0 || __builtin_popcountll(leaving) < __builtin_popcountll(best)))
-          best = leaving;
-      }
-      if (best != 0) {
-        unwind(current, best, d);
-        return answer;
-      }
-      std::set<std::pair<Set, std::int64_t>> tried;
-      for (std::size_t i = 0; i < n; ++i) {
-        // Distance to the next place where a face of part i is flush with another part's face of equal normal.
-        double next = std::numeric_limits<double>::infinity(), meets = std::numeric_limits<double>::infinity();
-        for (std::size_t j = 0; j < n; ++j) {
-          if (j == i) continue;
-          meets = std::min(meets, free[i * n + j]);
-          const double along = (at[j] - at[i]).dot(directions_[d]);
-          for (const std::size_t side : {d, Directions::opposite(d)}) {
-            const double sign = side == d ? 1 : -1;
-            for (const double a : shape(id[i]).planes[side])
-              for (const double b : shape(id[j]).planes[side]) {
-                const double length = sign * (b - a) + along;
-                if (length > params_.translation_least_step * tolerance_ && length < next) next = length;
-              }
-          }
-        }
-        std::vector<double> lengths;
-        if (next < std::numeric_limits<double>::infinity()) lengths.push_back(next);
-        if (to_contact && meets < next && meets - stand_off > play && next - meets > play)
-          lengths.push_back(meets - stand_off);
-        for (const double length : lengths) {
-          const Set set = taken_along(i, length);
-          if (set == everyone || !tried.insert({set, grid(length)}).second) continue;
-          Node node;
-          node.at = at;
-          for (std::size_t k = 0; k < n; ++k)
-            if (set >> k & 1) node.at[k] += length * directions_[d];
-          if (!seen.insert(key_of_places(node.at)).second) continue;
-          node.parent = static_cast<std::int64_t>(current);
-          node.moved = set;
-          node.direction = d;
-          node.length = length;
-          nodes.push_back(std::move(node));
-        }
-      }
     }
   }
   answer.end = End::exhausted;

@@ -56,6 +56,7 @@ class TranslationSearch {
     Polyhedron body;
     std::vector<std::vector<double>> planes;  ///< by direction: offsets of the faces with this normal, ascending
   };
+  class Arrangements;
   Answer search(const Places& places, std::size_t most_states, bool to_contact, const RunContext& context);
   double gap() const;
   std::int64_t grid(double x) const;
