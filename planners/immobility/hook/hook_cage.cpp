@@ -55,6 +55,19 @@ std::vector<Node> nodes_of(const std::vector<MedialBall>& balls, double depth, s
 
 using Links = std::vector<std::vector<std::size_t>>;
 
+struct Bar {
+  const Solid& solid;
+  double depth;  ///< no motion penetrates it deeper
+  std::vector<Node> nodes;
+  Links links;  ///< by node
+};
+
+/// A hole that the bar goes through.
+struct Hole {
+  Loop loop;         ///< a curve on the surface around it, close around the bar in the middle of the hole
+  std::size_t node;  ///< of the bar, there
+};
+
 /// Pairs of nodes between which the straight segment is within the bar.
 Links links_of(const std::vector<Node>& nodes) {
   Links links(nodes.size());
@@ -78,15 +91,14 @@ Vec3 bar_direction(const std::vector<Node>& nodes, std::size_t node) {
   return axes.eigenvectors().col(2);
 }
 
-/// For each hole: one curve on the surface, close around the bar in the middle of the hole, and the node there.
-std::vector<std::pair<Loop, std::size_t>> holes(const Surface& surface, const Solid& around,
-                                                const std::vector<Node>& nodes, std::size_t most) {
+std::vector<Hole> holes(const Solid& around, const std::vector<Node>& nodes, std::size_t most) {
   struct Tight {
     std::size_t node;
     Vec3 along;
     Loop loop;
   };
   std::vector<Tight> tight;
+  const Surface surface(around);
   const Pose to_local = around.frame.inverse();
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Vec3 local = to_local * nodes[i].at;
@@ -97,7 +109,7 @@ std::vector<std::pair<Loop, std::size_t>> holes(const Surface& surface, const So
       if (loop.around(nodes[i].at) && loop.diameter() < 2 * reach) tight.push_back({i, along, std::move(loop)});
   }
   // Curves next to each other belong to one hole.
-  std::vector<std::pair<Loop, std::size_t>> found;
+  std::vector<Hole> found;
   std::vector<char> taken(tight.size(), 0);
   for (std::size_t first = 0; first < tight.size() && found.size() < most; ++first) {
     if (taken[first]) continue;
@@ -115,17 +127,17 @@ std::vector<std::pair<Loop, std::size_t>> holes(const Surface& surface, const So
       return along.dot(nodes[tight[a].node].at) < along.dot(nodes[tight[b].node].at);
     });
     const Tight& middle = tight[hole[hole.size() / 2]];
-    found.emplace_back(middle.loop, middle.node);
+    found.push_back({middle.loop, middle.node});
   }
   return found;
 }
 
 /// Distances that the surface of another part keeps from points along a line in the bar, up to the first point where
 /// the distance is too small.
-std::vector<double> keep_along(const Solid& bar, const Vec3& from, const Vec3& direction, double step, double depth) {
+std::vector<double> keep_along(const Bar& bar, const Vec3& from, const Vec3& direction, double step) {
   std::vector<double> keep;
   for (int k = 0; k < kMostSteps; ++k) {
-    const double d = escape_at(bar.frame.inverse() * (from + k * step * direction), bar).depth - depth;
+    const double d = escape_at(bar.solid.frame.inverse() * (from + k * step * direction), bar.solid).depth - bar.depth;
     if (!(d > 0.5 * step)) break;  // so that nothing gets between two points
     keep.push_back(d);
   }
@@ -138,23 +150,22 @@ struct Line {
   double worth = 0;  ///< sum of keep
 };
 
-Line line_along(const Solid& bar, const Vec3& corner, const Vec3& along, double step, double depth) {
-  Line line{along, keep_along(bar, corner, along, step, depth), 0};
+Line line_along(const Bar& bar, const Vec3& corner, const Vec3& along, double step) {
+  Line line{along, keep_along(bar, corner, along, step), 0};
   for (const double d : line.keep) line.worth += d;
   return line;
 }
 
 /// Turns a line to where it keeps more distance, among directions for which `suits` holds.
 template <class Suits>
-Line improved(const Solid& bar, const Vec3& corner, Line best, double by, double step, double depth,
-              const Suits& suits) {
+Line improved(const Bar& bar, const Vec3& corner, Line best, double by, double step, const Suits& suits) {
   for (; by > 0.004; by *= 0.5)  // rad; a quarter of a degree
     for (int k = 0; k < 8; ++k) {
       const Vec3 e = best.along.unitOrthogonal(), f = best.along.cross(e);
       const double a = k * pi / 4;
       const Vec3 along = (best.along + by * (std::cos(a) * e + std::sin(a) * f)).normalized();
       if (!suits(along)) continue;
-      Line next = line_along(bar, corner, along, step, depth);
+      Line next = line_along(bar, corner, along, step);
       if (next.worth > best.worth) best = std::move(next);
     }
   return best;
@@ -172,13 +183,13 @@ struct Corner {
 bool is_bend(const Vec3& a, const Vec3& b, double min_bend) { return std::abs(a.dot(b)) < std::cos(min_bend); }
 
 /// The best two of 150 directions, on a Fibonacci sphere: about 16 degrees apart.
-std::optional<Corner> coarse_corner(const Solid& bar, const Node& node, double depth, double min_bend) {
+std::optional<Corner> coarse_corner(const Bar& bar, const Node& node, double min_bend) {
   const double step = 0.5 * node.keep;
   constexpr std::size_t kDirections = 150;
   std::vector<Line> lines;
   for (std::size_t k = 0; k < kDirections; ++k) {
     const double z = 1 - (2 * k + 1.0) / kDirections, r = std::sqrt(1 - z * z), a = k * pi * (3 - std::sqrt(5.0));
-    lines.push_back(line_along(bar, node.at, {r * std::cos(a), r * std::sin(a), z}, step, depth));
+    lines.push_back(line_along(bar, node.at, {r * std::cos(a), r * std::sin(a), z}, step));
   }
   const auto better = [](const Line& a, const Line& b) { return a.worth < b.worth; };
   const Line first = *std::max_element(lines.begin(), lines.end(), better);
@@ -190,13 +201,13 @@ std::optional<Corner> coarse_corner(const Solid& bar, const Node& node, double d
 }
 
 /// Moves and turns the corner a little to where it keeps more distance.
-std::optional<Bend> refined(const Solid& bar, Corner corner, double depth, double min_bend) {
+std::optional<Bend> refined(const Bar& bar, Corner corner, double min_bend) {
   const double step = 0.5 * corner.node.keep;
   const auto turned = [&](const Vec3& at, const Line& one, const Line& two, double by) {
     const auto any = [](const Vec3&) { return true; };
-    Corner c{corner.node, at, improved(bar, at, line_along(bar, at, one.along, step, depth), by, step, depth, any), {}};
+    Corner c{corner.node, at, improved(bar, at, line_along(bar, at, one.along, step), by, step, any), {}};
     const auto bends = [&](const Vec3& along) { return is_bend(c.first.along, along, min_bend); };
-    c.second = improved(bar, at, line_along(bar, at, two.along, step, depth), by, step, depth, bends);
+    c.second = improved(bar, at, line_along(bar, at, two.along, step), by, step, bends);
     return c;
   };
   corner = turned(corner.at, corner.first, corner.second, 0.15);
@@ -227,20 +238,19 @@ struct Reached {
   std::uint32_t before;
 };
 
-/// Nodes that can be reached from `from`, which is on the disc, without crossing the disc; the fewest links first.
-std::vector<Reached> on_side(const Loop& loop, const std::vector<Node>& nodes, const Links& links, std::size_t from,
-                             bool above) {
+/// Nodes on one side of the disc that can be reached from its node without crossing it; the fewest links first.
+std::vector<Reached> on_side(const Bar& bar, const Hole& hole, bool above) {
   std::vector<Reached> list;
-  std::vector<char> seen(nodes.size(), 0);
-  seen[from] = 1;
-  for (const std::size_t n : links[from])
-    if ((loop.plane.height(nodes[n].at) > 0) == above) {
+  std::vector<char> seen(bar.nodes.size(), 0);
+  seen[hole.node] = 1;
+  for (const std::size_t n : bar.links[hole.node])
+    if ((hole.loop.plane.height(bar.nodes[n].at) > 0) == above) {
       seen[n] = 1;
       list.push_back({n, kNoIndex});
     }
   for (std::uint32_t k = 0; k < list.size(); ++k)
-    for (const std::size_t n : links[list[k].node])
-      if (!seen[n] && !crosses(loop, nodes[list[k].node].at, nodes[n].at)) {
+    for (const std::size_t n : bar.links[list[k].node])
+      if (!seen[n] && !crosses(hole.loop, bar.nodes[list[k].node].at, bar.nodes[n].at)) {
         seen[n] = 1;
         list.push_back({n, k});
       }
@@ -253,28 +263,32 @@ struct BendWithPath {
   std::vector<Vec3> path;
 };
 
-/// A bend on one side of the disc at `node` that cannot pass the disc.
-std::optional<BendWithPath> bend_on_side(const Solid& bar, const Solid& around, double depth,
-                                         const std::vector<Node>& nodes, const Links& links, const Loop& loop,
-                                         std::size_t node, bool above, const HookParams& params,
-                                         const RunContext& context) {
-  std::vector<std::pair<Corner, std::uint32_t>> corners;  // with the index in the list below
-  const std::vector<Reached> near = on_side(loop, nodes, links, node, above);
+/// Corners of the bar on one side of the disc that may be bends, with their place in `near`; the worthiest first.
+std::vector<std::pair<Corner, std::uint32_t>> corners_of(const Bar& bar, const std::vector<Reached>& near,
+                                                         const HookParams& params) {
+  std::vector<std::pair<Corner, std::uint32_t>> corners;
   constexpr std::uint32_t kMostNodes = 40;  // a bend further away lets the bar slide to it
   for (std::uint32_t k = 0; k < near.size() && k < kMostNodes; ++k)
-    if (auto corner = coarse_corner(bar, nodes[near[k].node], depth, params.min_bend))
+    if (auto corner = coarse_corner(bar, bar.nodes[near[k].node], params.min_bend))
       corners.emplace_back(std::move(*corner), k);
   std::stable_sort(corners.begin(), corners.end(),
                    [](const auto& a, const auto& b) { return a.first.worth() > b.first.worth(); });
   if (corners.size() > static_cast<std::size_t>(params.max_bends))
     corners.erase(corners.begin() + params.max_bends, corners.end());
-  for (const auto& [corner, place] : corners) {
-    const auto bend = refined(bar, corner, depth, params.min_bend);
+  return corners;
+}
+
+/// A bend of the bar on one side of the disc that cannot pass the disc.
+std::optional<BendWithPath> bend_on_side(const Bar& bar, const Solid& around, const Hole& hole, bool above,
+                                         const HookParams& params, const RunContext& context) {
+  const std::vector<Reached> near = on_side(bar, hole, above);
+  for (const auto& [corner, place] : corners_of(bar, near, params)) {
+    const auto bend = refined(bar, corner, params.min_bend);
     // If the refined corner is on the other side, the line crosses the disc twice, and the proof does not apply.
-    if (bend && !crosses(loop, corner.node.at, bend->corner) &&
-        cannot_pass(loop, around, *bend, static_cast<std::uint64_t>(params.max_distances), context)) {
+    if (bend && !crosses(hole.loop, corner.node.at, bend->corner) &&
+        cannot_pass(hole.loop, around, *bend, static_cast<std::uint64_t>(params.max_distances), context)) {
       BendWithPath found{*bend, {bend->corner}};
-      for (std::uint32_t k = place; k != kNoIndex; k = near[k].before) found.path.push_back(nodes[near[k].node].at);
+      for (std::uint32_t k = place; k != kNoIndex; k = near[k].before) found.path.push_back(bar.nodes[near[k].node].at);
       return found;
     }
   }
@@ -283,27 +297,27 @@ std::optional<BendWithPath> bend_on_side(const Solid& bar, const Solid& around, 
 
 }  // namespace
 
-std::optional<HookCage> hook_cage(const Solid& bar, const std::vector<MedialBall>& balls, const Solid& around,
+std::optional<HookCage> hook_cage(const Solid& solid, const std::vector<MedialBall>& balls, const Solid& around,
                                   double depth, const HookParams& params, const RunContext& context) {
-  const std::vector<Node> nodes = nodes_of(balls, depth, static_cast<std::size_t>(params.max_nodes));
-  if (nodes.size() < kLeastSteps) return std::nullopt;
-  const Links links = links_of(nodes);
-  const Surface surface(around);
-  for (const auto& [loop, node] : holes(surface, around, nodes, static_cast<std::size_t>(params.max_holes))) {
+  Bar bar{solid, depth, nodes_of(balls, depth, static_cast<std::size_t>(params.max_nodes)), {}};
+  if (bar.nodes.size() < kLeastSteps) return std::nullopt;
+  bar.links = links_of(bar.nodes);
+  for (const Hole& hole : holes(around, bar.nodes, static_cast<std::size_t>(params.max_holes))) {
     std::array<std::optional<BendWithPath>, 2> bends;
     std::atomic<bool> passes{false};
     parallel_for(
         bends.size(), context,
-        [&, &hole = loop, at = node](std::size_t side) {
-          bends[side] = bend_on_side(bar, around, depth, nodes, links, hole, at, side == 1, params, context);
+        [&](std::size_t side) {
+          bends[side] = bend_on_side(bar, around, hole, side == 1, params, context);
           if (!bends[side]) passes = true;
         },
         [&] { return passes.load(); });
     if (!bends[0] || !bends[1]) continue;
+    const Vec3 middle = bar.nodes[hole.node].at;
     std::vector<Vec3> path = bends[0]->path;
-    path.push_back(nodes[node].at);
+    path.push_back(middle);
     path.insert(path.end(), bends[1]->path.rbegin(), bends[1]->path.rend());
-    return HookCage{loop.plane.normal, path, nodes[node].at, loop.diameter(), {bends[0]->bend, bends[1]->bend}};
+    return HookCage{hole.loop.plane.normal, path, middle, hole.loop.diameter(), {bends[0]->bend, bends[1]->bend}};
   }
   return std::nullopt;
 }
