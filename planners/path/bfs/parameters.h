@@ -43,7 +43,7 @@ struct Parameters : push::SearchParameters {
     push::Tactics t;
     static_cast<push::SearchParameters&>(t) = *this;
     t.translating = {push::Stage::axes};
-    t.turning = {push::Stage::axes};
+    t.rotating = {push::Stage::axes};
     if (diagonals) push::add_diagonals(t);
     return t;
   }

@@ -30,12 +30,12 @@ struct Parameters : push::SearchParameters, push::ProposalParameters {
     t.own_axes = true;
     t.novelty = novelty;
     t.first_rank = 1;  // free directions and axes before screws
-    t.turning_lag = 1;
+    t.rotation_lag = 1;
     if (proposals) t.translating.push_back(push::Stage::free);
     t.translating.push_back(push::Stage::axes);
     if (proposals) t.translating.push_back(push::Stage::leaning);
-    if (twists) t.turning = {push::Stage::twists, push::Stage::leaning};
-    t.turning.push_back(push::Stage::axes);
+    if (twists) t.rotating = {push::Stage::twists, push::Stage::leaning};
+    t.rotating.push_back(push::Stage::axes);
     if (diagonals) push::add_diagonals(t);
     return t;
   }

@@ -62,7 +62,7 @@ void describe_proposals(Schema<P>& s) {
 /// Adds the last stages of translation and of rotation.
 inline void add_diagonals(Tactics& t) {
   t.translating.push_back(Stage::diagonals);
-  t.turning.push_back(Stage::screws);
+  t.rotating.push_back(Stage::screws);
 }
 
 }  // namespace dismantle::push

@@ -16,7 +16,7 @@ struct Node {
   State state;
   std::int32_t parent = -1;
   unsigned depth = 0;             ///< actions from the start
-  Path way{};                     ///< instants after the parent's, up to its own
+  Path motion{};                  ///< instants after the parent's, up to its own
   std::size_t stage = 0;          ///< the next one to be applied
   bool middle = false;            ///< in the middle of a run, not at its end
   bool may_wait = false;          ///< may be expanded; otherwise only compared with new states
@@ -29,16 +29,16 @@ struct Middle {
   std::int32_t from;
   unsigned depth;
   State state;
-  Path way;
+  Path motion;
 };
 
 /// The search tree of one motion space.
 struct Tree {
   std::vector<PartId> fixed;  ///< ascending
   std::vector<Node> nodes;    ///< parents before their children
-  std::vector<Middle> passed;
-  std::size_t passed_before = 0;  ///< states in the middle of runs that became nodes, or were dropped
-  bool relaxed = false;           ///< World::allow_overlap_everywhere
+  std::vector<Middle> middles;
+  std::size_t middles_before = 0;  ///< states in the middle of runs that became nodes, or were dropped
+  bool relaxed = false;            ///< World::allow_overlap_everywhere
   std::vector<path::ContactSample> samples;
   bool short_glides = false;
 };

@@ -86,16 +86,16 @@ struct ProposalParameters {
 
 /// Everything that a planner sets for the search: its parameters and its stages of actions.
 struct Tactics : SearchParameters, ProposalParameters {
-  std::vector<Stage> translating, turning;
-  /// Stages if parts move independently, translating and turning. The number of actions grows with the square of the
+  std::vector<Stage> translating, rotating;
+  /// Stages if parts move independently, translating and rotating. The number of actions grows with the square of the
   /// number of parts, not exponentially: at most two parts are driven, and contact moves the others.
-  std::vector<Stage> each_its_way{Stage::one_driven, Stage::two_along, Stage::two_across};
+  std::vector<Stage> independent{Stage::one_driven, Stage::two_along, Stage::two_across};
   /// True: axes from the parts' own faces (frame.h), independent of the orientation of the assembly. False: world axes.
   bool own_axes = false;
   bool novelty = false;
   /// With `motion: auto` and no depth limit, translation is first searched up to `first_rank`. Rotation follows up to
-  /// the rank of translation minus `turning_lag`.
-  unsigned first_rank = 0, turning_lag = 0;
+  /// the rank of translation minus `rotation_lag`.
+  unsigned first_rank = 0, rotation_lag = 0;
 };
 
 }  // namespace dismantle::push
