@@ -241,6 +241,7 @@ def selected(rows, arguments):
     return [row for row in rows if row["set"] in sets
             and (arguments.input == "all" or (arguments.input == "samples") == row["assembly"].startswith("sample/"))
             and (not arguments.assembly or any(fnmatch.fnmatchcase(row["assembly"], a) for a in arguments.assembly))
+            and not (arguments.new and row["exit"])
             and (not arguments.tolerance or row["tolerance"] in arguments.tolerance)]
 
 
@@ -268,6 +269,7 @@ def parse(arguments):
     parser.add_argument("--input", choices=("all", "samples", "data"), default="all")
     parser.add_argument("--assembly", action="append", metavar="PATTERN", help="as in a shell: 'burr/*'; may be repeated")
     parser.add_argument("--tolerance", action="append", metavar="T", help="as in the table: 0.001; may be repeated")
+    parser.add_argument("--new", action="store_true", help="only rows that have no result yet")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--threads", type=int, default=1, help="of each plan; results do not depend on it")
     parser.add_argument("--cpu-limit", type=int, default=1800, metavar="S", help="a row that needs more fails; never a result")
