@@ -84,6 +84,59 @@ TEST(ForcedSteps, ThePairThatIsCutIsAskedAboutAndItsProofIsCited) {
   }
 }
 
+/// A closed box of thin walls around two cubes.
+Assembly box_with_two_cubes() {
+  return fake::assembly_of({{"box",
+                             {{{-2, -1, -1}, {2, 1, -0.9}},
+                              {{-2, -1, 0.9}, {2, 1, 1}},
+                              {{-2, -1, -0.9}, {-1.9, 1, 0.9}},
+                              {{1.9, -1, -0.9}, {2, 1, 0.9}},
+                              {{-1.9, -1, -0.9}, {1.9, -0.9, 0.9}},
+                              {{-1.9, 0.9, -0.9}, {1.9, 1, 0.9}}}},
+                            {"left", {{{-1.5, -0.5, -0.5}, {-0.5, 0.5, 0.5}}}},
+                            {"right", {{{0.5, -0.5, -0.5}, {1.5, 0.5, 0.5}}}}});
+}
+
+/// A proof says that its first part cannot leave the others while these keep their places. It says nothing about a step
+/// that parts these others from each other.
+TEST(ForcedSteps, AProofIsCitedOnlyWhereItsFirstPartLeavesAllItsOthers) {
+  const Assembly assembly = box_with_two_cubes();
+  unsigned cited = 0;
+  for (PartId first = 0; first < 3; ++first) {
+    PlanningSetup setup = fake::setup(fake::push, fake::last_resort_after(std::make_shared<InTurn>()));
+    RunOptions options;
+    options.force = ForceWhen::last_resort;
+    setup.provers = {
+        fake::prover("group", {ProofEffort::high, 3, 4, false}, [&](const SeparationQuery& q, const RunContext&) {
+          Certificate c = fake::claim(q, "held");
+          std::iter_swap(c.parts.begin(), std::find(c.parts.begin(), c.parts.end(), first));
+          return std::optional(c);
+        })};
+    RunContext context;
+    const Plan plan = run(assembly, setup, options, context).plan;
+    ASSERT_EQ(plan.forced_steps(), 2U);
+    ASSERT_FALSE(plan.certificates.empty());
+    std::set<std::string> group{"box", "left", "right"};
+    for (const PlanStep& step : plan.disassembly) {
+      std::set<std::string> moving;
+      for (const PlanMove& move : step.moves) moving.insert(move.part);
+      if (step.forced && step.forced->certificate) {
+        const std::vector<std::string>& parts = plan.certificates.at(*step.forced->certificate).parts;
+        for (std::size_t k = 1; k < parts.size(); ++k) {
+          EXPECT_TRUE(group.contains(parts[k]));
+          EXPECT_NE(moving.contains(parts[0]), moving.contains(parts[k]))
+              << parts[0] << ", step of " << *moving.begin();
+        }
+        ++cited;
+      } else {
+        EXPECT_NE(step.forced->reason, "held");
+      }
+      for (const std::string& part : moving) group.erase(part);
+    }
+  }
+  EXPECT_GT(cited, 0U);
+}
+
 TEST(ForcedSteps, AFalseDepthIsRefused) {
   const Assembly assembly = fake::closed_box();
   const Plan plan = last_resort_in_turn(assembly).plan;
