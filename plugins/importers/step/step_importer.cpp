@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "dismantle/errors.h"
+#include "external_files.h"
 #include "read_in_child.h"
 
 namespace dismantle::step_import {
@@ -30,7 +31,10 @@ void check_ends(const fs::path& file) {
     text.resize(static_cast<std::size_t>(in.gcount()));
     return text;
   };
-  if (part(0, std::min(size, look)).find("ISO-10303-21") == std::string::npos)
+  const std::string head = part(0, std::min(size, look));
+  if (head.starts_with("\x1F\x8B") || head.starts_with("PK\x03\x04"))
+    throw InputError(file.string(), "compressed STEP files are not read: unpack it first (gunzip or unzip)");
+  if (head.find("ISO-10303-21") == std::string::npos)
     throw InputError(file.string(), "this is no STEP file: it does not begin with ISO-10303-21");
   const std::streamoff tail = std::min(size, look);
   if (part(size - tail, tail).find("END-ISO-10303-21") == std::string::npos)
@@ -73,10 +77,16 @@ StepImporter::StepImporter(const StepParams& params)
 
 StepImporter::StepImporter(const StepParams& params, fs::path reader) : params_(params), reader_(std::move(reader)) {}
 
-std::vector<std::string> StepImporter::extensions() const { return {"step", "stp", "p21"}; }
+std::vector<std::string> StepImporter::extensions() const { return {"step", "stp", "p21", "stpz"}; }
+
+std::vector<fs::path> StepImporter::referenced_files(const fs::path& file) const { return external_files(file).read; }
 
 std::vector<RawPart> StepImporter::read(const fs::path& file, const RunContext& context) {
   check_ends(file);
+  // Open CASCADE would open them, and wait for a pipe.
+  if (const ExternalFiles others = external_files(file); !others.refused.empty())
+    throw InputError(file.string(), fmt::format("it refers to '{}', which is no regular file in its folder: refused",
+                                                others.refused.front()));
   const reader_process::ReaderProgram program{
       .path = reader_,
       .formats = "STEP files",

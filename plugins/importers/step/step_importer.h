@@ -29,6 +29,7 @@ class StepImporter : public Importer {
 
   std::vector<std::string> extensions() const override;
   std::vector<RawPart> read(const std::filesystem::path& file, const RunContext& context) override;
+  std::vector<std::filesystem::path> referenced_files(const std::filesystem::path& file) const override;
 
  private:
   StepParams params_;

@@ -12,21 +12,25 @@
 #include <Standard_Failure.hxx>
 #include <Standard_OutOfMemory.hxx>
 #include <Standard_Version.hxx>
-#include <TColStd_SequenceOfAsciiString.hxx>
 #include <TDocStd_Document.hxx>
 #include <TopTools_DataMapOfShapeInteger.hxx>
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
+#include <set>
 #include <stdexcept>
 
+#include "dismantle/geometry/length_unit.h"
+#include "lost_products.h"
+#include "mapped_items.h"
 #include "product_tree.h"
 #include "stream_writer.h"
 #include "tessellate.h"
+#include "units.h"
 
 namespace dismantle::step_import {
 namespace {
@@ -41,16 +45,6 @@ struct Arguments {
   std::uint64_t max_triangles = 0;
 };
 
-struct Unit {
-  const char* in_file;  ///< prefix of the name in Open CASCADE
-  const char* name;
-  double millimetres;
-};
-constexpr Unit kUnits[] = {{"millimet", "mm", 1},     {"centimet", "cm", 10},  {"decimet", "dm", 100},
-                           {"micromet", "um", 0.001}, {"kilomet", "km", 1e6},  {"met", "m", 1000},
-                           {"inch", "inch", 25.4},    {"foot", "foot", 304.8}, {"feet", "foot", 304.8},
-                           {"mile", "mile", 1609344}, {"mil", "mil", 0.0254}};
-
 class Converter {
  public:
   Converter(const Arguments& arguments, StreamWriter& out) : arguments_(arguments), out_(out) {}
@@ -59,24 +53,53 @@ class Converter {
   int run() {
     const Handle(TDocStd_Document) document = read();
     if (document.IsNull()) return 1;
-    const ProductTree tree = walk_products(XCAFDoc_DocumentTool::ShapeTool(document->Main()));
+    ProductTree tree = walk_products(XCAFDoc_DocumentTool::ShapeTool(document->Main()), encoding_);
     for (const auto& warning : tree.warnings) out_.warning(warning);
+    for (const auto& note : tree.notes) out_.note(note);
+    add_lost(tree);
     const double assembly = measure(tree);
     for (std::size_t i = 0; i < tree.bodies.size(); ++i) {
       out_.phase("tessellating", i, tree.bodies.size());
       if (!convert(tree.bodies[i], assembly)) return 1;
+    }
+    for (const AbsentBody& absent : tree.absent) {
+      Body body;
+      body.name = absent.name;
+      body.parents = absent.parents;
+      body.problem = absent.problem;
+      body.by_meaning = absent.by_meaning;
+      out_.body(body);
     }
     out_.end();
     return 0;
   }
 
  private:
+  /// Products that are in the file and not in the tree; those that are there without a body get their reason.
+  void add_lost(ProductTree& tree) {
+    std::set<const AbsentBody*> hidden;
+    std::vector<AbsentBody> more;
+    for (const AbsentBody& absent : tree.absent)
+      if (absent.by_meaning) hidden.insert(&absent);
+    for (const LostProduct& lost : lost_products(reader_, encoding_)) {
+      bool known = false;
+      for (AbsentBody& absent : tree.absent) {
+        if (absent.name != lost.name || hidden.contains(&absent)) continue;
+        absent.problem = lost.problem;
+        absent.by_meaning = lost.by_meaning;
+        known = true;
+      }
+      if (!known) more.push_back({lost.name, {}, lost.problem, lost.by_meaning});
+    }
+    std::ranges::move(more, std::back_inserter(tree.absent));
+  }
+
   Handle(TDocStd_Document) read() {
     out_.phase("reading STEP", 0, 0);
     const Handle(XCAFApp_Application) application = XCAFApp_Application::GetApplication();
     Handle(TDocStd_Document) document;
     application->NewDocument("MDTV-XCAF", document);
-    STEPCAFControl_Reader reader;
+    STEPCAFControl_Reader& reader = reader_;
     reader.SetColorMode(Standard_True);
     reader.SetNameMode(Standard_True);
     reader.SetLayerMode(Standard_False);
@@ -86,11 +109,21 @@ class Converter {
     reader.SetViewMode(Standard_False);
     Interface_Static::SetCVal("xstep.cascade.unit", "MM");
     Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
+    // Each byte becomes one character, and none is lost: see recoded().
+    Interface_Static::SetCVal("read.step.codepage", "iso8859-1");
+    encoding_ = encoding_of(arguments_.file);
+    if (encoding_ != TextEncoding::utf8)
+      out_.warning(std::string("names are not in UTF-8, as the standard has it: read as ") +
+                   (encoding_ == TextEncoding::gb18030 ? "GB18030" : "Latin-1 (Windows-1252)"));
     if (reader.ReadFile(arguments_.file.c_str()) != IFSelect_RetDone) {
       out_.failure(Failure::unreadable, "Open CASCADE cannot read it: the file is damaged or is no STEP file");
       return {};
     }
-    find_unit(reader.ChangeReader());
+    find_unit(reader.ChangeReader().Model());
+    for (const std::string& refused : place_mapped_items(reader.ChangeReader())) {
+      out_.failure(Failure::unreadable, refused);
+      return {};
+    }
     const int roots = reader.ChangeReader().NbRootsForTransfer();
     out_.phase("building shapes", 0, static_cast<std::size_t>(std::max(roots, 0)));
     if (roots == 0 || !reader.Transfer(document)) {
@@ -101,26 +134,21 @@ class Converter {
   }
 
   /// Shapes are read in millimetres and written in the file's own unit, if it has one.
-  void find_unit(STEPControl_Reader& reader) {
-    TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
-    reader.FileUnits(lengths, angles, solid_angles);
-    std::vector<const Unit*> found;
-    for (const TCollection_AsciiString& text : lengths) {
-      std::string name = text.ToCString();
-      for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      const Unit* unit = std::find_if(std::begin(kUnits), std::end(kUnits),
-                                      [&](const Unit& u) { return name.rfind(u.in_file, 0) == 0; });
-      if (unit == std::end(kUnits)) {
-        out_.warning("length unit '" + name + "' is not known: coordinates are in millimetres");
-        found.clear();
-        break;
+  void find_unit(const Handle(Interface_InterfaceModel) & model) {
+    const std::vector<double> units = length_units(model);
+    std::string name = "mm";
+    if (units.size() == 1) {
+      name = unit_of_length(units[0] / 1000);
+      if (name.empty()) {
+        out_.warning("its length unit of " + std::to_string(units[0]) +
+                     " mm is not known: coordinates are in millimetres");
+        name = "mm";
       }
-      if (std::find(found.begin(), found.end(), unit) == found.end()) found.push_back(unit);
+    } else if (units.size() > 1) {
+      out_.warning("the file has several length units: coordinates are in millimetres");
     }
-    if (found.size() > 1) out_.warning("the file has several length units: coordinates are in millimetres");
-    const Unit& unit = found.size() == 1 ? *found[0] : kUnits[0];
-    millimetres_ = unit.millimetres;
-    out_.unit(unit.name);
+    millimetres_ = 1000 * metres_in(name);
+    out_.unit(name);
   }
 
   /// Measures the diagonal of the box around all bodies (returned) and of each body without its location. Millimetres.
@@ -204,6 +232,8 @@ class Converter {
 
   const Arguments& arguments_;
   StreamWriter& out_;
+  STEPCAFControl_Reader reader_;
+  TextEncoding encoding_ = TextEncoding::utf8;
   double millimetres_ = 1;
   TopTools_DataMapOfShapeInteger index_;  // of distinct bodies, without location
   std::vector<Bnd_Box> boxes_;

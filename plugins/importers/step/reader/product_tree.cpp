@@ -5,13 +5,14 @@
 #include <TDF_Tool.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <XCAFDoc_ColorTool.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_Location.hxx>
 #include <map>
 #include <set>
 #include <stdexcept>
 
 #include "input_limits.h"
-#include "product_names.h"
 
 namespace dismantle::step_import {
 namespace {
@@ -33,6 +34,8 @@ struct Product {
   std::vector<Member> members;
   std::size_t free_faces = 0, wires = 0, points = 0;
   std::shared_ptr<const ProductColours> colours;
+  /// Whether it is nothing but construction geometry.
+  bool drawn() const { return members.empty() && free_faces == 0 && wires + points > 0; }
 };
 
 std::size_t count(const TopoDS_Shape& shape, TopAbs_ShapeEnum what, TopAbs_ShapeEnum outside = TopAbs_SHAPE) {
@@ -43,53 +46,70 @@ std::size_t count(const TopoDS_Shape& shape, TopAbs_ShapeEnum what, TopAbs_Shape
 
 class Walker {
  public:
-  explicit Walker(const Handle(XCAFDoc_ShapeTool) & shapes) : shapes_(shapes) {}
+  Walker(const Handle(XCAFDoc_ShapeTool) & shapes, TextEncoding encoding)
+      : shapes_(shapes), colours_(XCAFDoc_DocumentTool::ColorTool(shapes->Label())), encoding_(encoding) {}
 
   ProductTree walk() {
     TDF_LabelSequence roots;
     shapes_->GetFreeShapes(roots);
-    for (const TDF_Label& root : roots) visit(root, name_of(root), TopLoc_Location(), {}, std::nullopt);
+    for (const TDF_Label& root : roots) visit(root, name(root), TopLoc_Location(), {}, std::nullopt);
     give_names();
     return std::move(tree_);
   }
 
  private:
-  /// `name`: name of the instance, for products without a name.
-  void visit(const TDF_Label& label, const std::string& name, const TopLoc_Location& place,
+  std::string name(const TDF_Label& label) const { return name_of(label, encoding_); }
+
+  void leave_out(const TDF_Label& label, const std::string& instance, const std::vector<std::string>& parents,
+                 std::string problem, bool by_meaning) {
+    std::string own = name(label);
+    if (own.empty()) own = instance.empty() ? "part" : instance;
+    tree_.absent.push_back({std::move(own), parents, std::move(problem), by_meaning});
+  }
+
+  /// `instance`: name of the instance, for products without a name.
+  void visit(const TDF_Label& label, const std::string& instance, const TopLoc_Location& place,
              const std::vector<std::string>& parents, const std::optional<Rgba8>& colour) {
     if (++visited_ > reader_process::kInputLimits.instances)
       throw std::length_error("more than a million instances of products");
     if (parents.size() > reader_process::kInputLimits.nesting)
       throw std::length_error("assemblies nested more than 64 deep");
+    if (!colours_->IsVisible(label)) {
+      TDF_Label product;
+      const bool refers = XCAFDoc_ShapeTool::GetReferredShape(label, product);
+      return leave_out(refers ? product : label, instance, parents, "it is hidden in the file", true);
+    }
     if (XCAFDoc_ShapeTool::IsReference(label)) {
       TDF_Label product;
-      if (!XCAFDoc_ShapeTool::GetReferredShape(label, product)) return;
+      if (!XCAFDoc_ShapeTool::GetReferredShape(label, product))
+        return leave_out(label, instance, parents, "the file has no product for this component", false);
       const std::optional<Rgba8> own = colour ? colour : colour_of(label);
-      visit(product, name, place * XCAFDoc_ShapeTool::GetLocation(label), parents, own);
+      visit(product, instance, place * XCAFDoc_ShapeTool::GetLocation(label), parents, own);
       return;
     }
     if (XCAFDoc_ShapeTool::IsAssembly(label)) {
       TDF_LabelSequence components;
       XCAFDoc_ShapeTool::GetComponents(label, components, Standard_False);
       std::vector<std::string> below = parents;
-      below.push_back(!name.empty() ? name : name_of(label));
-      for (const TDF_Label& component : components) visit(component, name_of(component), place, below, colour);
-      if (components.IsEmpty()) tree_.warnings.push_back("assembly '" + below.back() + "' is empty");
+      below.push_back(!instance.empty() ? instance : name(label));
+      for (const TDF_Label& component : components) visit(component, name(component), place, below, colour);
+      if (components.IsEmpty()) leave_out(label, instance, parents, "it is an assembly without components", false);
       return;
     }
-    place_product(label, name, place, parents, colour);
+    place_product(label, instance, place, parents, colour);
   }
 
   void place_product(const TDF_Label& label, const std::string& instance_name, const TopLoc_Location& place,
                      const std::vector<std::string>& parents, const std::optional<Rgba8>& colour) {
     const Product& product = product_of(label);
-    std::string name = name_of(label);
-    if (name.empty()) name = instance_name.empty() ? "part" : instance_name;
+    std::string own = name(label);
+    if (own.empty()) own = instance_name.empty() ? "part" : instance_name;
+    if (product.members.empty()) return leave_out(label, instance_name, parents, problem_of(product), product.drawn());
     for (std::size_t i = 0; i < product.members.size(); ++i) {
       const auto& member = product.members[i];
       PlacedBody body;
       const bool alone = product.members.size() == 1;
-      body.name = alone ? name : name + ":" + (member.name.empty() ? std::to_string(i + 1) : member.name);
+      body.name = alone ? own : own + ":" + (member.name.empty() ? std::to_string(i + 1) : member.name);
       bearers_[body.name].push_back({tree_.bodies.size(), &product});
       body.parents = parents;
       body.kind = member.kind;
@@ -100,7 +120,7 @@ class Walker {
       body.faces = member.faces;
       tree_.bodies.push_back(std::move(body));
     }
-    report_rest(name, product);
+    report_rest(own, product);
   }
 
   /// Different products with one name ("Body" in "post" and "Body" in "lid") get the name of their assembly as a
@@ -123,20 +143,29 @@ class Walker {
     make_unique(names);
   }
 
-  /// Warns once for each name, not for each instance.
-  void report_rest(const std::string& name, const Product& product) {
-    std::string rest;
+  static std::string listed(const Product& product) {
+    std::string list;
     const auto add = [&](std::size_t n, const char* one, const char* many) {
-      if (n > 0) rest += (rest.empty() ? "" : ", ") + std::to_string(n) + " " + (n == 1 ? one : many);
+      if (n > 0) list += (list.empty() ? "" : ", ") + std::to_string(n) + " " + (n == 1 ? one : many);
     };
     add(product.free_faces, "face", "faces");
     add(product.wires, "curve", "curves");
     add(product.points, "point", "points");
-    if (product.members.empty() && rest.empty()) rest = "nothing";
-    if (rest.empty() || !reported_.insert(name).second) return;
-    tree_.warnings.push_back(product.members.empty()
-                                 ? "'" + name + "' is no body and left aside: it holds " + rest
-                                 : "'" + name + "' holds " + rest + " beside its bodies: left aside");
+    return list;
+  }
+
+  static std::string problem_of(const Product& product) {
+    const std::string list = listed(product);
+    if (list.empty()) return "it has no body: the file has no shape for it, or one of a kind that is not read";
+    return "it is no body, it holds " + list + (product.drawn() ? "" : ": close or thicken it in the CAD program");
+  }
+
+  /// Once for each name, not for each instance.
+  void report_rest(const std::string& own, const Product& product) {
+    const std::string list = listed(product);
+    if (list.empty() || !reported_.insert(own).second) return;
+    (product.free_faces > 0 ? tree_.warnings : tree_.notes)
+        .push_back("'" + own + "' holds " + list + " beside its bodies: left aside");
   }
 
   const Product& product_of(const TDF_Label& label) {
@@ -168,7 +197,7 @@ class Walker {
     std::set<std::string> different;
     for (auto& member : product.members) {
       for (const TDF_Label& subshape : subshapes)
-        if (XCAFDoc_ShapeTool::GetShape(subshape).IsSame(member.shape)) member.name = name_of(subshape);
+        if (XCAFDoc_ShapeTool::GetShape(subshape).IsSame(member.shape)) member.name = name(subshape);
       if (!member.name.empty()) different.insert(member.name);
     }
     if (different.size() < product.members.size())
@@ -176,6 +205,8 @@ class Walker {
   }
 
   Handle(XCAFDoc_ShapeTool) shapes_;
+  Handle(XCAFDoc_ColorTool) colours_;
+  TextEncoding encoding_;
   ProductTree tree_;
   struct Bearer {
     std::size_t body;
@@ -189,6 +220,8 @@ class Walker {
 
 }  // namespace
 
-ProductTree walk_products(const Handle(XCAFDoc_ShapeTool) & shapes) { return Walker(shapes).walk(); }
+ProductTree walk_products(const Handle(XCAFDoc_ShapeTool) & shapes, TextEncoding encoding) {
+  return Walker(shapes, encoding).walk();
+}
 
 }  // namespace dismantle::step_import

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "product_colours.h"
+#include "product_names.h"
 
 namespace dismantle::step_import {
 
@@ -27,11 +28,21 @@ struct PlacedBody {
   std::size_t faces = 0;
 };
 
-struct ProductTree {
-  std::vector<PlacedBody> bodies;
-  std::vector<std::string> warnings;  ///< content of the file that is not a body, by name
+/// What the file declares and has no body of, at each of its places.
+struct AbsentBody {
+  std::string name;
+  std::vector<std::string> parents;
+  std::string problem;
+  bool by_meaning = false;  ///< the file says that it is no part
 };
 
-ProductTree walk_products(const Handle(XCAFDoc_ShapeTool) & shapes);
+struct ProductTree {
+  std::vector<PlacedBody> bodies;
+  std::vector<AbsentBody> absent;
+  std::vector<std::string> warnings;  ///< faces beside bodies, by name
+  std::vector<std::string> notes;     ///< curves and points beside bodies, by name
+};
+
+ProductTree walk_products(const Handle(XCAFDoc_ShapeTool) & shapes, TextEncoding encoding = TextEncoding::utf8);
 
 }  // namespace dismantle::step_import

@@ -51,7 +51,8 @@ TEST(RealStepFiles, HaveThePartsOfTheirMeshesInTheSamePlaces) {
   StepImporter importer({}, STEP_READER);
   for (const auto& file : files) {
     SCOPED_TRACE(file.filename().string());
-    const auto parts = importer.read(file, {});
+    auto parts = importer.read(file, {});
+    std::erase_if(parts, [](const RawPart& part) { return part.by_meaning; });  // coordinate systems
     const fs::path folder = data / "cad" / file.stem();
     std::vector<Aabb> expected;
     Aabb all;
