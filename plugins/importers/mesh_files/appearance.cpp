@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
-#include <utility>
 
 #include "dismantle/errors.h"
 #include "text_scan.h"
@@ -67,14 +66,6 @@ std::map<std::string, Rgba> read_material_library(const std::filesystem::path& f
   for (const auto& [name, v] : read)
     if (const auto colour = rgba(v.r, v.g, v.b, v.opacity, false); v.has_colour && colour) out.emplace(name, *colour);
   return out;
-}
-
-std::string unit_of_length(double metres) {
-  const std::pair<double, const char*> units[] = {{1, "m"},         {0.01, "cm"},     {0.001, "mm"},
-                                                  {0.0254, "inch"}, {0.3048, "foot"}, {1e-6, "micron"}};
-  for (const auto& [length, name] : units)
-    if (std::abs(metres - length) <= 1e-5 * length) return name;
-  return {};
 }
 
 }  // namespace dismantle::mesh_files

@@ -28,7 +28,4 @@ std::optional<Rgba> rgba(double r, double g, double b, double a, bool linear);
 /// Kd and d (or Tr) of the materials in an .mtl file, by name. Empty if the file cannot be read.
 std::map<std::string, Rgba> read_material_library(const std::filesystem::path& file);
 
-/// Name of a length unit given in metres: "mm", "cm", "m", "inch", "foot", "micron"; empty for any other length.
-std::string unit_of_length(double metres);
-
 }  // namespace dismantle::mesh_files

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "dismantle/errors.h"
+#include "gltf_container.h"
 #include "input_limits.h"
 #include "read_in_child.h"
 #include "readers.h"
@@ -64,6 +65,10 @@ std::optional<std::uint64_t> MeshFiles::count_triangles(const std::filesystem::p
   if (e == "stl") return count_stl_triangles(file);
   if (e == "ply") return count_ply_triangles(file);
   return std::nullopt;
+}
+
+std::vector<std::filesystem::path> MeshFiles::referenced_files(const std::filesystem::path& file) const {
+  return ending(file) == "gltf" ? buffers_of_gltf(file) : std::vector<std::filesystem::path>();
 }
 
 std::vector<RawPart> MeshFiles::read(const std::filesystem::path& file, const RunContext& context) {

@@ -23,6 +23,7 @@ class MeshFiles : public Importer {
   std::vector<std::string> extensions() const override;
   std::optional<std::uint64_t> count_triangles(const std::filesystem::path& file) const override;
   std::vector<RawPart> read(const std::filesystem::path& file, const RunContext& context) override;
+  std::vector<std::filesystem::path> referenced_files(const std::filesystem::path& file) const override;
 
  private:
   std::vector<RawPart> read_with_assimp(const std::filesystem::path& file, const RunContext& context) const;

@@ -13,7 +13,8 @@
 
 namespace dismantle::mesh_files {
 
-/// Lines of a text file without line ends: LF, CRLF, or CR in a file whose first block has no LF. Refuses binary data and overlong lines before they use memory.
+/// Lines of a text file without line ends: LF, CRLF, or CR in a file whose first block has no LF. Refuses binary data
+/// and overlong lines before they use memory.
 class LineReader {
  public:
   /// @throws InputError when the file cannot be opened.

@@ -24,6 +24,8 @@ Body body_of(const RawPart& part) {
   Body body;
   body.name = part.name;
   body.parents = part.parents;
+  body.problem = part.problem;
+  body.by_meaning = part.by_meaning;
   if (part.colour) body.colour = {part.colour->r, part.colour->g, part.colour->b, part.colour->a};
   for (const auto& v : part.mesh.vertices) body.vertices.push_back({v.x(), v.y(), v.z()});
   body.triangles.assign(part.mesh.triangles.begin(), part.mesh.triangles.end());
@@ -38,9 +40,11 @@ std::string problem_of(const InputError& error) {
 
 int convert(const char* file, StreamWriter& out) {
   try {
-    const std::vector<RawPart> parts = read_scene(file);
-    if (!parts.empty()) out.unit(parts.front().unit);
-    for (const RawPart& part : parts) out.body(body_of(part));
+    const PartsOfFile read = read_scene(file);
+    for (const std::string& warning : read.warnings) out.warning(warning);
+    for (const std::string& note : read.notes) out.note(note);
+    if (!read.parts.empty()) out.unit(read.parts.front().unit);
+    for (const RawPart& part : read.parts) out.body(body_of(part));
     out.end();
     return 0;
   } catch (const InputError& error) {

@@ -14,9 +14,14 @@
 
 #include "appearance.h"
 #include "dismantle/errors.h"
+#include "dismantle/geometry/length_unit.h"
 #include "dismantle/referenced_file.h"
+#include "gltf.h"
+#include "gltf_document.h"
 #include "input_limits.h"
-#include "names_3mf.h"
+#include "text_scan.h"
+#include "three_mf.h"
+#include "without_unused.h"
 
 namespace dismantle::mesh_files {
 namespace {
@@ -61,24 +66,6 @@ class ReferencedFiles : public Assimp::DefaultIOSystem {
   std::filesystem::path file_;
   std::string& refused_;
 };
-
-/// The mesh without vertices that only points and lines use.
-Mesh without_unused(const Mesh& mesh) {
-  Mesh used;
-  const auto unused = static_cast<std::uint32_t>(-1);
-  std::vector<std::uint32_t> number(mesh.vertices.size(), unused);
-  for (Triangle t : mesh.triangles) {
-    for (auto& corner : t) {
-      if (number[corner] == unused) {
-        number[corner] = static_cast<std::uint32_t>(used.vertices.size());
-        used.vertices.push_back(mesh.vertices[corner]);
-      }
-      corner = number[corner];
-    }
-    used.triangles.push_back(t);
-  }
-  return used;
-}
 
 class SceneReader {
  public:
@@ -187,10 +174,10 @@ class SceneReader {
 
 }  // namespace
 
-std::vector<RawPart> read_scene(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+PartsOfFile read_scene(const std::filesystem::path& file) {
+  const std::string ending = lower_case(file.extension().string());
+  if (ending == ".3mf") return read_3mf(file);
+  if (ending != ".dae" && version_of_gltf(file) != 1) return read_gltf(file);
   try {
     std::string refused;
     Assimp::Importer importer;
@@ -209,27 +196,12 @@ std::vector<RawPart> read_scene(const std::filesystem::path& file) {
       throw InputError(file.string(), "cannot be read: " + (why.empty() ? "no scene in it" : why));
     }
     // assimp puts a conversion to metres into the root node of a DAE scene; parts keep the units of their file.
-    const bool is_gltf = ending == ".glb" || ending == ".gltf";
-    std::vector<RawPart> parts = SceneReader(file, *scene, is_gltf).read(ending == ".dae");
-    std::string unit;
-    if (is_gltf) unit = "m";  // glTF 2.0, section 3.4
-    if (ending == ".dae")
-      unit = unit_of_length(matrix(scene->mRootNode->mTransformation).topLeftCorner<3, 3>().col(0).norm());
-    if (ending == ".3mf") {
-      const Facts3mf facts = facts_of_3mf(file);
-      unit = facts.unit;
-      // assimp names objects "Object_" plus their id.
-      const auto rename = [&](std::string& name) {
-        if (const auto found = facts.names.find(name.substr(name.find('_') + 1)); found != facts.names.end())
-          name = found->second;
-      };
-      for (auto& part : parts) {
-        rename(part.name);
-        for (auto& parent : part.parents) rename(parent);
-      }
-    }
-    for (auto& part : parts) part.unit = unit;
-    return parts;
+    const bool dae = ending == ".dae";
+    PartsOfFile out{SceneReader(file, *scene, !dae).read(dae), {}, {}};
+    const std::string unit =
+        dae ? unit_of_length(matrix(scene->mRootNode->mTransformation).topLeftCorner<3, 3>().col(0).norm()) : "m";
+    for (auto& part : out.parts) part.unit = unit;
+    return out;
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {

@@ -1,16 +1,14 @@
-/// Reads scenes with assimp and converts them to parts.
+/// Reads files with several parts: glTF, 3MF, and with assimp DAE and glTF 1.
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
-#include "dismantle/importer.h"
+#include "parts_of_file.h"
 
 namespace dismantle::mesh_files {
 
-/// glTF, 3MF, DAE: one part per mesh node, node transforms applied, units of the file.
+/// One part per mesh at each of its places, transforms applied, units of the file.
 /// @throws InputError whose text begins with the file. assimp itself may crash, hang or use all memory.
-std::vector<RawPart> read_scene(const std::filesystem::path& file);
+PartsOfFile read_scene(const std::filesystem::path& file);
 
 }  // namespace dismantle::mesh_files

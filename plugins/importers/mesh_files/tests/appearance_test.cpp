@@ -75,13 +75,5 @@ TEST(Appearance, AnObjPartOfTwoColoursHasNone) {
   EXPECT_EQ(colours("o a\ng x\nusemtl b\nf 1 2 3\ng y\nf 1 2 4\no b\nf 2 3 4\n"), (Colours{blue, blue}));
 }
 
-TEST(Appearance, UnitsOfLength) {
-  EXPECT_EQ(unit_of_length(0.001), "mm");
-  EXPECT_EQ(unit_of_length(0.0254), "inch");
-  EXPECT_EQ(unit_of_length(1), "m");
-  EXPECT_EQ(unit_of_length(0.7), "");
-  EXPECT_EQ(unit_of_length(0.3048), "foot");
-}
-
 }  // namespace
 }  // namespace dismantle::mesh_files

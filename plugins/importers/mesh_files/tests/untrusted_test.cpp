@@ -91,6 +91,7 @@ TEST(UntrustedFiles, AGltfReadsNothingOutsideOfItsFolder) {
     const auto parts = MeshFiles().read(model(uri), {});
     ASSERT_EQ(parts.size(), 1U) << uri;
     EXPECT_EQ(parts[0].mesh.triangles.size(), 1U) << uri;
+    EXPECT_EQ(MeshFiles().referenced_files(folder / "model/a.gltf").size(), 1U) << "the hash covers it";
   }
   for (const std::string& uri :
        {std::string("../outside.bin"), std::string("sub/../../outside.bin"), std::string("link.bin"),
