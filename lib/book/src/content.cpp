@@ -38,7 +38,7 @@ class ContentWriter {
         assembly_(assembly),
         options_(options),
         frame_(options.frame),
-        unit_(frame_.unit_known ? frame_.unit : "units"),
+        unit_(frame_.unit_known ? text_unit(frame_.unit, assembly.input_box) : TextUnit{"units", 1}),
         size_(assembly.input_box.empty() ? 1 : assembly.input_box.size().maxCoeff()) {
     find_items(shapes);
   }
@@ -70,8 +70,7 @@ class ContentWriter {
       item.name = common_name(names);
       const Eigen::Vector3d box =
           assembly_.parts[item.parts.front()].mesh->box().size() / assembly_.normalization.scale;
-      item.size =
-          fmt::format("{} × {} × {} {}", figure_text(box.x()), figure_text(box.y()), figure_text(box.z()), unit_);
+      item.size = size_text(box);
     }
   }
 
@@ -88,16 +87,14 @@ class ContentWriter {
                                 fmt::format("{}, {}", a.parts.size(), text::counted(content_.items.size(), "shape")));
     content_.facts.emplace_back("steps", std::to_string(plan_.disassembly.size()));
     if (!a.box.empty()) {
-      const Eigen::Vector3d box = a.box.size();
-      content_.facts.emplace_back("size", fmt::format("{} × {} × {} {}", figure_text(box.x()), figure_text(box.y()),
-                                                      figure_text(box.z()), unit_));
+      content_.facts.emplace_back("size", size_text(a.box.size()));
     }
     content_.facts.emplace_back("directions", frame_.y_up ? "right is +X, up is +Y, the front is at +Z"
                                                           : "right is +X, up is +Z, the front is at -Y");
     if (!frame_.unit_known) content_.facts.emplace_back("units", "those of the input, which names none");
     content_.facts.emplace_back(
         "checked", fmt::format("every motion, with parts that overlap by at most {} {} more than when assembled",
-                               figure_text(plan_.verified_max_penetration / a.scale), unit_));
+                               figure_text(unit_.factor * plan_.verified_max_penetration / a.scale), unit_.name));
     if (!plan_.objective.empty()) content_.facts.emplace_back("judged", objective_text(plan_));
     content_.facts.emplace_back("made by", plan_.generator_name + " " + plan_.generator_version);
     std::string forced;
@@ -116,6 +113,16 @@ class ContentWriter {
       for (const auto& [name, reason] : a.excluded) names.push_back(name);
       content_.warnings.push_back(fmt::format("Left out of the plan, and not in this book: {}.", listed(names)));
     }
+  }
+
+  std::string length_of(double input_units) const {
+    return fmt::format("{} {}", figure_text(unit_.factor * input_units), unit_.name);
+  }
+
+  /// `box`: input units.
+  std::string size_text(Eigen::Vector3d box) const {
+    box *= unit_.factor;
+    return fmt::format("{} × {} × {} {}", figure_text(box.x()), figure_text(box.y()), figure_text(box.z()), unit_.name);
   }
 
   std::string chapter_name(const BookChapter& chapter) const {
@@ -172,7 +179,7 @@ class ContentWriter {
       }
       const MotionSummary motion = summarize_motion(mover.poses, mover.center, leg_tolerance(size_));
       const std::string who = step.movers.size() > 1 ? names_of(mover.parts) + ": " : "";
-      page.motions.push_back(who + motion_words(motion, unit_, frame_.y_up));
+      page.motions.push_back(who + motion_words(in_unit(motion, unit_.factor), unit_.name, frame_.y_up));
       add_vectors(motion, who, page.facts);
     }
     if (step.movers.empty()) page.motions.emplace_back("it is apart already: nothing has to move");
@@ -198,17 +205,17 @@ class ContentWriter {
       const auto rounded = [](double x) { return std::round(1000 * x) / 1000 + 0.0; };
       facts.emplace_back("direction",
                          fmt::format("{}({}, {}, {})", who, rounded(d.x()), rounded(d.y()), rounded(d.z())));
-      facts.emplace_back("distance", fmt::format("{}{} {}", who, figure_text(motion.displacement.norm()), unit_));
+      facts.emplace_back("distance", who + length_of(motion.displacement.norm()));
     }
     if (motion.length > 1.01 * motion.displacement.norm())
-      facts.emplace_back("length of the path", fmt::format("{}{} {}", who, figure_text(motion.length), unit_));
+      facts.emplace_back("length of the path", who + length_of(motion.length));
   }
 
   const Plan& plan_;
   const Assembly& assembly_;
   const BookOptions& options_;
   const InputFrame frame_;
-  const std::string unit_;
+  const TextUnit unit_;
   const double size_;
   std::vector<std::size_t> item_of_;  // by part
   BookContent content_;

@@ -9,6 +9,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/geometry/length_unit.h"
+#include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/exports.h"
 #include "dismantle/plan_io/input_frame.h"
 #include "dismantle/plan_io/motion_words.h"
@@ -197,6 +198,23 @@ TEST(MotionWords, DirectionsAreThoseOfSomeoneBeforeTheAssembly) {
   EXPECT_EQ(direction_words({0, 0, 1}, true), "to the front (+Z)");
   EXPECT_EQ(direction_words({-1, 0, -1}, false), "down and left (-0.71, 0, -0.71)");
   EXPECT_THROW(direction_words({0, 0, 0}, false), Error);
+}
+
+TEST(InputFrame, TextsUseTheUnitOfPeople) {
+  const auto box = [](double size) { return Aabb{{0, 0, 0}, {size, size / 2, size / 3}}; };
+  EXPECT_EQ(text_unit("m", box(0.3)).name, "mm");
+  EXPECT_EQ(text_unit("m", box(0.3)).factor, 1000);
+  EXPECT_EQ(text_unit("micron", box(20)).name, "um");
+  EXPECT_EQ(text_unit("inch", box(3)).factor, 1);
+  EXPECT_EQ(text_unit("", box(3)).name, "");
+  EXPECT_EQ(text_unit("ell", box(3)).name, "ell");
+  Plan plan;
+  plan.assembly.unit = "m";
+  plan.assembly.box = box(0.3);
+  EXPECT_EQ(length_text(plan, 0.0358), "35.8 mm");
+  const MotionSummary motion =
+      in_unit(summarize_motion({Pose{}, Pose{{0, 0, -0.0358}, {1, 0, 0, 0}}}, {0, 0, 0}, 1e-3), 1000);
+  EXPECT_EQ(motion_words(motion, "mm", false), "35.8 mm down (-Z)");
 }
 
 TEST(InputFrame, UnitsOfImportersAreKnownAndOthersNamed) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "dismantle/errors.h"
+#include "dismantle/plan_io/input_frame.h"
 #include "dismantle/plan_io/plan_history.h"
 #include "explain/advice.h"
 #include "explain/reach.h"
@@ -146,7 +147,8 @@ std::string overlaps_text(const Plan& plan, const PlanStep& step) {
 }
 
 std::string length_text(const Plan& plan, double length) {
-  return fmt::format("{:.3g} {}", length, plan.assembly.unit.empty() ? "input units" : plan.assembly.unit);
+  const TextUnit unit = text_unit(plan.assembly.unit, plan.assembly.box);
+  return fmt::format("{:.3g} {}", length * unit.factor, unit.name.empty() ? "input units" : unit.name);
 }
 
 }  // namespace dismantle

@@ -43,7 +43,7 @@ std::string judged_cell(const std::vector<PlanVerdict>& checks) {
 
 std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
   const PlanAssembly& a = plan.assembly;
-  const std::string unit = frame.unit_known ? frame.unit : "units";
+  const TextUnit unit = frame.unit_known ? text_unit(frame.unit, a.box) : TextUnit{"units", 1};
   const double size = a.box.empty() ? 1 : std::max(a.box.size().maxCoeff(), 1e-300);
   const Eigen::Vector3d middle = a.box.empty() ? a.center : a.box.center();
 
@@ -63,7 +63,8 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
       std::string motion = "-";
       if (!step.moves.empty())
         motion =
-            motion_words(summarize_motion(step.moves.front().poses, middle, leg_tolerance(size)), unit, frame.y_up);
+            motion_words(in_unit(summarize_motion(step.moves.front().poses, middle, leg_tolerance(size)), unit.factor),
+                         unit.name, frame.y_up);
       const std::string what = step.separates.empty() ? " (shifted, stays)" : "";
       out += fmt::format("| {} | {}{} | {} | {} | {} | {} |{}\n", step.step, markdown_text(text::names_of(step)), what,
                          markdown_text(motion), step.layer > 0 ? steps_list(step.after) : "not recorded",

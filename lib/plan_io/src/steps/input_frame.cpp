@@ -32,6 +32,12 @@ Eigen::Quaterniond InputFrame::to_y_up() const {
   return {half, -half, 0, 0};
 }
 
+TextUnit text_unit(const std::string& unit, const Aabb& box) {
+  if (unit_named(unit).empty()) return {unit, 1};
+  const std::string name = unit_for_people(unit, box.empty() ? 1 : box.size().maxCoeff());
+  return {name, metres_in(unit) / metres_in(name)};
+}
+
 InputFrame input_frame(const Assembly& assembly) { return frame_of(assembly.unit, assembly.parts); }
 InputFrame input_frame(const PlanAssembly& assembly) { return frame_of(assembly.unit, assembly.parts); }
 

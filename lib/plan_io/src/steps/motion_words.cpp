@@ -44,6 +44,13 @@ std::string turn_words(double turn) {
 
 }  // namespace
 
+MotionSummary in_unit(MotionSummary motion, double factor) {
+  for (Eigen::Vector3d& leg : motion.legs) leg *= factor;
+  motion.displacement *= factor;
+  motion.length *= factor;
+  return motion;
+}
+
 std::string figure_text(double x) {
   if (x == 0) return "0";
   const double size = std::abs(x);

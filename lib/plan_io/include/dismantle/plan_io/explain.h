@@ -74,7 +74,8 @@ DISMANTLE_API std::string explain_json(const Explanation& explanation);
 DISMANTLE_API std::string forced_text(const Plan& plan, const PlanForced& forced);
 /// A line for each overlap that the step makes use of; may be empty.
 DISMANTLE_API std::string overlaps_text(const Plan& plan, const PlanStep& step);
-/// A length of the plan's input with its unit: "0.25 mm", or "0.25 input units" where the files do not say.
+/// A length of the plan's input with its unit: "0.25 mm", or "0.25 input units" where the files do not say. In the unit
+/// that people use: text_unit().
 DISMANTLE_API std::string length_text(const Plan& plan, double length);
 
 }  // namespace dismantle

@@ -23,6 +23,15 @@ struct InputFrame {
   Eigen::Quaterniond to_y_up() const;
 };
 
+/// Unit in which texts state lengths, and how many of it one input unit is.
+struct TextUnit {
+  std::string name;
+  double factor = 1;
+};
+
+/// unit_for_people() for an input of this box; `unit` itself when it is empty or not known.
+DISMANTLE_API TextUnit text_unit(const std::string& unit, const Aabb& box);
+
 /// @throws InputError as metres_in().
 DISMANTLE_API InputFrame input_frame(const Assembly& assembly);
 /// Unit and up direction of the files that a plan is for.

@@ -25,6 +25,9 @@ struct MotionSummary {
 DISMANTLE_API MotionSummary summarize_motion(const std::vector<Pose>& poses, const Eigen::Vector3d& point,
                                              double tolerance);
 
+/// The motion with lengths in a unit of which one input unit is `factor`.
+DISMANTLE_API MotionSummary in_unit(MotionSummary motion, double factor);
+
 /// The tolerance of summarize_motion() for text about an assembly whose largest edge is `size`: readers do not notice a
 /// hundredth.
 inline double leg_tolerance(double size) { return 0.01 * size; }
