@@ -30,6 +30,7 @@ void move_by_offsets(std::vector<RawPart>& parts, const fs::path& folder) {
   const fs::path file = offsets_file(folder);
   const nlohmann::json json = read_json(file);
   for (auto& part : parts) {
+    if (!part.problem.empty()) continue;  // it has no place
     const std::string key = fs::path(part.file).stem().string();
     if (!json.is_object() || !json.contains(key))
       throw InputError(file.string(), fmt::format("has no offset for '{}' ({})", key, part.file));
@@ -83,6 +84,7 @@ fs::path input_of(const TrialRequest& request, const std::vector<std::shared_ptr
   std::vector<RawPart> parts;
   if (request.sample.empty()) {
     parts = read_input(request.input, importers, {}, context).parts;
+    std::erase_if(parts, [](const RawPart& part) { return part.by_meaning; });  // no parts of the assembly
     name_files(parts);
   } else {
     parts = samples::make(request.sample, request.sample_values);
