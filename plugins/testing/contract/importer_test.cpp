@@ -17,9 +17,13 @@
 #include <string>
 #include <vector>
 
+#include "dismantle/engine/run.h"
 #include "dismantle/errors.h"
 #include "dismantle/geometry/length_unit.h"
 #include "dismantle/geometry/mesh_measure.h"
+#include "dismantle/plan_io/animation.h"
+#include "dismantle/preparation/prepare.h"
+#include "dismantle/preparation/write_prepared.h"
 #include "dismantle/testing/mesh_damage.h"
 #include "selection.h"
 
@@ -129,6 +133,7 @@ class ImporterContract : public testing::TestWithParam<std::string> {
     }
     EXPECT_EQ(testing::internal::GetCapturedStdout(), "") << "importers never print";
     for (const RawPart& part : parts) {
+      EXPECT_TRUE(!part.by_meaning || !part.problem.empty()) << "what is left out by its meaning says why";
       if (!part.problem.empty()) continue;
       if (!part.unit.empty()) {
         EXPECT_NO_THROW(static_cast<void>(metres_in(part.unit))) << "a unit that is not known: " << part.unit;
@@ -250,6 +255,86 @@ TEST_P(ImporterContract, SameGeometryByEveryFormat) {
       }
     }
   }
+}
+
+/// The centre of the volume.
+Eigen::Vector3d centre_of(const Mesh& mesh) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Eigen::Vector3d &a = mesh.vertex(t, 0), &b = mesh.vertex(t, 1), &c = mesh.vertex(t, 2);
+    sum += a.dot(b.cross(c)) / 24 * (a + b + c);
+  }
+  return sum / signed_volume(mesh);
+}
+
+/// Three chiral solids apart from each other, in input units.
+std::vector<RawPart> three_solids(Rng& rng) {
+  std::vector<RawPart> raw;
+  for (int i = 0; i < 3; ++i) {
+    raw.push_back({"part " + std::to_string(i), "part.obj", shapes::random_solid(rng)});
+    const Eigen::Vector3d away(100.0 * i, rng.uniform(-50, 50), rng.uniform(-50, 50));
+    for (auto& v : raw.back().mesh.vertices) v += away;
+  }
+  return raw;
+}
+
+/// What this program writes itself comes back: the same parts, volumes and centres, and no mirror image.
+TEST_P(ImporterContract, OwnFilesComeBack) {
+  const auto endings = importer_->extensions();
+  const auto reads = [&](const char* ending) {
+    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+  };
+  if (!reads("obj") && !reads("glb")) GTEST_SKIP() << "it reads neither obj nor glb";
+  Rng rng(63);
+  RunContext context;
+  PrepareReport report;
+  const Assembly assembly = prepare_assembly(three_solids(rng), "three", "", {}, context, report);
+  ASSERT_EQ(assembly.parts.size(), 3u);
+  const auto expect_back = [&](const std::vector<RawPart>& parts,
+                               const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& to_file, double scale,
+                               double relative) {
+    ASSERT_EQ(parts.size(), assembly.parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      Mesh written = *assembly.parts[i].mesh;
+      for (auto& v : written.vertices) v = to_file(assembly.normalization.to_input(v));
+      EXPECT_EQ(parts[i].problem, "");
+      const double volume = signed_volume(written);
+      EXPECT_GT(volume, 0);
+      EXPECT_NEAR(signed_volume(parts[i].mesh), volume, 1e3 * relative * volume) << parts[i].name;
+      EXPECT_LT((centre_of(parts[i].mesh) - centre_of(written)).norm(), 1e3 * relative * 300 * scale) << parts[i].name;
+    }
+  };
+  if (reads("obj")) {
+    std::vector<RawPart> parts;
+    for (const fs::path& file : write_prepared(assembly, report, folder_ / "prepared"))
+      if (file.extension() == ".obj")
+        for (RawPart& part : importer_->read(file, {})) parts.push_back(std::move(part));
+    expect_back(
+        parts, [](const Eigen::Vector3d& v) { return v; }, 1, 1e-12);
+  }
+  if (reads("glb")) {
+    const Plan plan = plan_of(Disassembly(assembly.parts.size()), assembly, {});
+    const auto bytes = to_glb(plan, assembly);
+    const InputFrame frame = input_frame(assembly);
+    const auto parts = importer_->read(write("plan.glb", std::string(bytes.begin(), bytes.end())), {});
+    for (const RawPart& part : parts) EXPECT_EQ(part.unit, "m");
+    expect_back(
+        parts, [&](const Eigen::Vector3d& v) -> Eigen::Vector3d { return frame.metres * (frame.to_y_up() * v); },
+        frame.metres, 1e-6);
+  }
+}
+
+TEST_P(ImporterContract, ARequiredExtensionThatIsUnknownIsRefusedByName) {
+  const std::string text = R"({"asset": {"version": "2.0"}, "extensionsUsed": ["ACME_fourth_dimension"],
+    "extensionsRequired": ["ACME_fourth_dimension"], "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "accessors": [{"componentType": 5126, "count": 3,
+    "type": "VEC3"}]})";
+  const auto endings = importer_->extensions();
+  if (std::find(endings.begin(), endings.end(), "gltf") == endings.end())
+    GTEST_SKIP() << "it does not read gltf, the only text format with required extensions";
+  std::string refusal;
+  EXPECT_TRUE(read(write("extended.gltf", text), refusal).empty());
+  EXPECT_NE(refusal.find("ACME_fourth_dimension"), std::string::npos) << refusal;
 }
 
 TEST_P(ImporterContract, StopsWhenTold) {
