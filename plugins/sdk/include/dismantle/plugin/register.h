@@ -5,24 +5,27 @@
 #include <exception>
 
 #include "dismantle/executor.h"
+#include "dismantle/geometry/solid.h"
 #include "dismantle/part_memo.h"
 #include "dismantle/plugin.h"
 
 namespace dismantle::abi {
 
-/// Hash of the layout of the types that cross the boundary.
+/// Hash of the layout of the types that cross the boundary; solids do so as values of a PartMemo.
 #define DISMANTLE_INTERFACE(kind, Interface) Interface,
-inline constexpr std::uint64_t kBoundaryLayout = layout_hash<
-    Triangle, Mesh, Pose, Aabb, Part, Normalization, InitialOverlap, ExcludedPart, Assembly, Rgba, RawPart,
-    Capabilities, PlacedPart, Scene, BodyState, State, Wrench, Action, Contact, Trace, StepReport, World,
-    PreparedAssembly, Outcome, Budget, VerifiedPath, PathCheck, PathChecker, SearchState, Goal, PathQuery, SearchStats,
-    PathResult, PathPlannerTraits, SearchStatus, PathSearch, FunctionPathPlanner, TransferQuery, Constraints,
-    DisassemblyStep, Disassembly, MotionDepth, MotionDepthOptions, ForcedCut, Attempt, ForcedRemoval, AttemptResult,
-    OracleCounts, ForcingOracle, PathOracle, Removal, Unsolved, StepQuestion, StepNote, StepVerdict, StepCheckTraits,
-    ObjectiveItem, ObjectiveVerdict, Objective, Operation, SequenceQuery, SequencePlannerTraits, SequenceResult,
-    SequenceObserver, Certificate, ProverTraits, SeparationQuery, SeparationQuestion, PartMemo, Deadline, CancelToken,
-    Rng, ProgressEvent, RunContext, Executor, ParamValue, ParamSet, ParamChoice, ParamSpec, PluginChoice,
-    PluginRef<PathPlanner>, TypeTraits, PluginType, DISMANTLE_PLUGIN_KINDS(DISMANTLE_INTERFACE) Registrar>();
+inline constexpr std::uint64_t kBoundaryLayout =
+    layout_hash<Triangle, Mesh, Pose, Aabb, Part, Normalization, InitialOverlap, ExcludedPart, Assembly, Rgba, RawPart,
+                Capabilities, PlacedPart, Scene, BodyState, State, Wrench, Action, Contact, Trace, StepReport, World,
+                PreparedAssembly, Outcome, Budget, VerifiedPath, PathCheck, PathChecker, SearchState, Goal, PathQuery,
+                SearchStats, PathResult, PathPlannerTraits, SearchStatus, PathSearch, FunctionPathPlanner,
+                TransferQuery, Constraints, DisassemblyStep, Disassembly, MotionDepth, MotionDepthOptions, ForcedCut,
+                Attempt, ForcedRemoval, AttemptResult, OracleCounts, ForcingOracle, PathOracle, Removal, Unsolved,
+                StepQuestion, StepNote, StepVerdict, StepCheckTraits, ObjectiveItem, ObjectiveVerdict, Objective,
+                Operation, SequenceQuery, SequencePlannerTraits, SequenceResult, SequenceObserver, Certificate,
+                ProverTraits, SeparationQuery, SeparationQuestion, PartMemo, geometry::Solid, Deadline, CancelToken,
+                Rng, ProgressEvent, RunContext, Executor, ParamValue, ParamSet, ParamChoice, ParamSpec, PluginChoice,
+                PluginRef<PathPlanner>, TypeTraits, PluginType,
+                DISMANTLE_PLUGIN_KINDS(DISMANTLE_INTERFACE) Registrar>();
 #undef DISMANTLE_INTERFACE
 /// The ABI tag of this translation unit.
 inline constexpr Text kTag = make_tag(kBoundaryLayout);
