@@ -20,8 +20,8 @@ struct ExplainOptions {
 void check_part(const Plan& plan, const std::string& part, const std::string& file) {
   std::vector<std::string> names;
   for (const auto& p : plan.assembly.parts) names.push_back(p.name);
-  for (const auto& [name, reason] : plan.assembly.excluded)
-    if (name == part) throw InputError(file, fmt::format("part '{}' was left out of the plan: {}", part, reason));
+  for (const PlanExcluded& e : plan.assembly.excluded)
+    if (e.name == part) throw InputError(file, fmt::format("part '{}' was left out of the plan: {}", part, e.reason));
   if (part.empty() || std::find(names.begin(), names.end(), part) != names.end()) return;
   const auto near = nearest(part, names);
   throw InputError(file, fmt::format("the plan has no part '{}'{}", part,

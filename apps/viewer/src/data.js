@@ -32,20 +32,20 @@ function readView({up, leavers, animations, parts, reasons, untried}) {
   };
 }
 
-/** @returns {plan, parts, shapes, view}; null if this is the template, without a plan. @throws Error if the data cannot be read. */
+/** @returns {plan, result: {word, text}, parts, shapes, view}; null if this is the template, without a plan. @throws Error if the data cannot be read. */
 export function readData(text) {
   if (text === '' || text[0] === '@') return null;
   const data = JSON.parse(text);
   if (data.format !== 'dismantle.page' || data.version !== 2)
     throw new Error(`this page cannot show data of format ${data.format}, version ${data.version}`);
-  const {plan, geometry} = data;
+  const {plan, geometry, result} = data;
   const parts = plan.assembly.parts.map((part, i) => {
     const {shape, place, box: [lo, hi]} = geometry.parts[i];
     const center = lo.map((x, k) => (x + hi[k]) / 2);
     const radius = Math.hypot(...lo.map((x, k) => hi[k] - x)) / 2;
     return {index: i, name: part.name, file: part.file, source: part, shape, place, lo, hi, center, radius};
   });
-  return {plan, parts, shapes: geometry.shapes.map(readShape), view: readView(data.view)};
+  return {plan, result, parts, shapes: geometry.shapes.map(readShape), view: readView(data.view)};
 }
 
 export const readPage = document => readData(document.getElementById('dismantle-data').textContent.trim());

@@ -6,8 +6,8 @@ import {sizeOf} from './plan/words.js';
 const FADE = 0.3;  // s
 
 export class Model {
-  constructor({plan, parts, shapes, view}) {
-    Object.assign(this, {plan, parts, shapes, view});
+  constructor({plan, result, parts, shapes, view}) {
+    Object.assign(this, {plan, result, parts, shapes, view});
     this.index = new Map(parts.map(p => [p.name, p.index]));
     this.size = sizeOf(plan);
     this.lines = {

@@ -155,6 +155,13 @@ struct PlanOverlap {
   bool flexible = false;                ///< the user did not set `declared`: one of the two is recognised as flexible
 };
 
+/// A part of the input that is not in the plan.
+struct PlanExcluded {
+  std::string name, reason;
+  bool unusable = false;  ///< the user wanted it; false: left out by a rule of the configuration, or not known
+  bool operator==(const PlanExcluded&) const = default;
+};
+
 /// The assembly that a plan is for, as the plan file states it.
 struct PlanAssembly {
   std::string source, sha256;
@@ -165,16 +172,32 @@ struct PlanAssembly {
   ImportParams import_params;
   std::string unit;  ///< input unit; empty when the files do not say
   std::vector<PlanPart> parts;
-  std::vector<std::pair<std::string, std::string>> excluded;  ///< name, reason
+  std::vector<PlanExcluded> excluded;
   std::vector<PlanOverlap> overlaps;
 };
 
-/// How much of the assembly a plan takes apart.
-enum class PlanStatus {
-  complete,  ///< every group is down to one part, by verified steps only
-  forced,    ///< every group is down to one part, some steps are forced
-  partial,   ///< some parts are still together
+/// What a plan was asked for; by default the whole assembly, each part by itself.
+struct PlanAsked {
+  std::string part{};                                ///< only the path of this part, all others fixed; empty: no
+  std::string target{};                              ///< take this part out, no more than that; empty: no
+  std::vector<std::vector<std::string>> together{};  ///< parts that stay together
+  bool operator==(const PlanAsked&) const = default;
 };
+
+/// The meaning of success: is what was asked for done, when these groups of parts are left? Every group is one part or
+/// stays together, or the part that was asked for is out.
+DISMANTLE_API bool is_done(const PlanAsked& asked, const std::vector<std::vector<std::string>>& groups);
+
+/// How much of what was asked for a plan does.
+enum class PlanStatus {
+  complete,  ///< all of it, by verified steps only; see is_done()
+  forced,    ///< all of it, some steps are forced
+  partial,   ///< parts are still together that were to be separated
+};
+
+/// The largest tolerance of the plan format, for an assembly of size 10. A plan that was made with a larger one is
+/// verified with this one.
+inline constexpr double kLargestTolerance = 0.01;
 
 /// What `assembly_steps` are.
 enum class AssemblyStatus {
@@ -188,9 +211,10 @@ struct Plan {
   std::string generator_name = "dismantle";
   std::string generator_version;
   PlanAssembly assembly;
+  PlanAsked asked;
   PlanStatus status = PlanStatus::partial;
   std::uint64_t seed = 0;
-  double verified_max_penetration = 0.01;  ///< the tolerance that every step was verified with
+  double verified_max_penetration = kLargestTolerance;  ///< the tolerance that every step was verified with
   std::vector<PlanStep> disassembly;
   std::vector<PlanStep> assembly_steps;
   AssemblyStatus assembly_status = AssemblyStatus::reversed;
@@ -199,6 +223,10 @@ struct Plan {
   std::vector<PlanUnsolved> unsolved;
   std::vector<PlanCertificate> certificates;  ///< proofs that parts cannot be separated
   PlanObjective objective;
+
+  /// The one condition for exit status 0: the plan is complete, and no part was left out that the user wanted (one that
+  /// was not asked for may be left out).
+  DISMANTLE_API bool succeeded() const;
 
   /// Disassembly steps that are forced.
   std::size_t forced_steps() const {

@@ -11,6 +11,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/motion_words.h"
+#include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/text_columns.h"
 #include "dismantle/plan_io/verdicts.h"
 
@@ -108,9 +109,11 @@ class ContentWriter {
           fmt::format("The plan is partial: {} are still together with others at its end ({}). What the plan does not "
                       "separate is handled as one piece here.",
                       text::counted(plan_.remaining.size(), "part"), listed(plan_.remaining)));
+    else if (plan_.asked != PlanAsked{})
+      content_.facts.emplace_back("plan", result_text(plan_));
     if (!a.excluded.empty()) {
       std::vector<std::string> names;
-      for (const auto& [name, reason] : a.excluded) names.push_back(name);
+      for (const PlanExcluded& e : a.excluded) names.push_back(e.name);
       content_.warnings.push_back(fmt::format("Left out of the plan, and not in this book: {}.", listed(names)));
     }
   }

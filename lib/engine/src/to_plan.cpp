@@ -44,7 +44,7 @@ PlanAssembly to_plan(const Assembly& assembly, const std::vector<FlexiblePart>& 
     a.parts.push_back({part.id, part.name, part.file, part.colour, part.parents, {}});
     if (part.colour) a.parts.back().colour->a = 255;
   }
-  for (const auto& excluded : assembly.excluded) a.excluded.emplace_back(excluded.name, excluded.reason);
+  for (const auto& excluded : assembly.excluded) a.excluded.push_back({excluded.name, excluded.reason, !excluded.by_choice});
   for (const auto& o : assembly.overlaps)
     a.overlaps.push_back({assembly.parts.at(o.a).name, assembly.parts.at(o.b).name, o.depth,
                           place_in_input(o.place, assembly.normalization), o.declared, false});
@@ -56,6 +56,14 @@ std::vector<std::string> names_of(const std::vector<PartId>& parts, const Assemb
   std::vector<std::string> names;
   for (const PartId id : parts) names.push_back(assembly.parts.at(id).name);
   return names;
+}
+
+PlanAsked asked_of(const RunOptions& options, const Assembly& assembly) {
+  if (!options.only_part.empty()) return {.part = options.only_part};
+  PlanAsked asked;
+  if (options.constraints.target) asked.target = assembly.parts.at(*options.constraints.target).name;
+  for (const auto& list : options.constraints.together) asked.together.push_back(names_of(list, assembly));
+  return asked;
 }
 
 }  // namespace
@@ -128,6 +136,7 @@ PlanStep to_plan(const DisassemblyStep& step, Plan& plan, const Assembly& assemb
 Plan plan_of(const Disassembly& disassembly, const Assembly& assembly, const RunOptions& options) {
   Plan plan;
   plan.generator_version = DISMANTLE_VERSION;
+  plan.asked = asked_of(options, assembly);
   plan.seed = options.seed;
   plan.verified_max_penetration = options.verify.max_penetration;
   plan.assembly = to_plan(assembly, options.flexible);
@@ -137,8 +146,10 @@ Plan plan_of(const Disassembly& disassembly, const Assembly& assembly, const Run
     plan.assembly_steps.back().step = static_cast<unsigned>(plan.assembly_steps.size());
   }
   const std::vector<std::vector<PartId>>& groups = disassembly.groups();
-  const bool apart = std::all_of(groups.begin(), groups.end(), [](const auto& group) { return group.size() <= 1; });
-  plan.status = !apart ? PlanStatus::partial : plan.forced_steps() > 0 ? PlanStatus::forced : PlanStatus::complete;
+  std::vector<std::vector<std::string>> names;
+  for (const auto& group : groups) names.push_back(names_of(group, assembly));
+  const bool done = is_done(plan.asked, names);
+  plan.status = !done ? PlanStatus::partial : plan.forced_steps() > 0 ? PlanStatus::forced : PlanStatus::complete;
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (g == 0 || groups[g].size() > 1)
       for (const PartId id : groups[g]) plan.remaining.push_back(assembly.parts[id].name);

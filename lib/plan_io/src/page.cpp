@@ -14,6 +14,7 @@
 #include "dismantle/plan_io/base64.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/shading.h"
+#include "dismantle/plan_io/summary.h"
 #include "page_view.h"
 
 namespace dismantle {
@@ -129,6 +130,7 @@ std::string to_page(const Plan& plan, const Assembly& assembly, const std::strin
   const auto add = [&](const char* key, const PageJson& value) {
     data += key + value.dump(-1, ' ', false, PageJson::error_handler_t::replace);
   };
+  add(",\"result\":", {{"word", result_word(plan)}, {"text", result_text(plan)}});
   add(",\"geometry\":", geometry_json(plan, assembly));
   add(",\"view\":", page_view(plan, assembly, settings));
   data += "}";

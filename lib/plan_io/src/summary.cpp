@@ -12,20 +12,49 @@
 namespace dismantle {
 namespace {
 
-std::string excluded_text(const std::vector<std::pair<std::string, std::string>>& excluded) {
+std::string excluded_text(const std::vector<PlanExcluded>& excluded) {
   std::string out;
-  for (const auto& [name, reason] : excluded) out += fmt::format("left out: {}: {}\n", name, reason);
+  for (const PlanExcluded& e : excluded) out += fmt::format("left out: {}: {}\n", e.name, e.reason);
   return out;
 }
 
+std::string asked_text(const Plan& plan) {
+  const PlanAsked& asked = plan.asked;
+  if (!asked.part.empty()) return fmt::format("{} came out, which was all that was asked for", asked.part);
+  if (!asked.target.empty()) return fmt::format("{} is out, which was the target", asked.target);
+  return asked.together.empty() ? "every part came out" : "every part came out but for those that are to stay together";
+}
+
 }  // namespace
+
+std::string result_word(const Plan& plan) {
+  return std::string(to_string(plan.succeeded()                        ? PlanStatus::complete
+                               : plan.status == PlanStatus::complete ? PlanStatus::partial
+                                                                     : plan.status));
+}
+
+std::string result_text(const Plan& plan) {
+  const std::string word = result_word(plan);
+  switch (plan.status) {
+    case PlanStatus::complete:
+      return fmt::format("{}: {}{}", word, asked_text(plan),
+                         plan.succeeded() ? "" : ", and some parts of the input could not be used");
+    case PlanStatus::forced:
+      return fmt::format("{}: {}, in {} by force", word, asked_text(plan), text::counted(plan.forced_steps(), "step"));
+    case PlanStatus::partial:
+      break;
+  }
+  const std::string& out = plan.asked.part.empty() ? plan.asked.target : plan.asked.part;
+  return fmt::format("{}: {} left{}", word, text::counted(plan.remaining.size(), "part"),
+                     out.empty() ? "" : fmt::format(", {} is not out", out));
+}
 
 std::string summary_text(const Plan& plan) {
   const auto& a = plan.assembly;
   double worst = 0;
   for (const auto& step : plan.disassembly) worst = std::max(worst, step.max_penetration);
   std::string out = fmt::format("{}: {}, {}, {}\n", a.source, text::counted(a.parts.size(), "part"),
-                                text::counted(plan.disassembly.size(), "step"), std::string(to_string(plan.status)));
+                                text::counted(plan.disassembly.size(), "step"), result_text(plan));
   const std::size_t width = text::widest_step(plan);
   const double scale = a.scale > 0 ? a.scale : 1;  // people read input units
   std::size_t forced = 0;

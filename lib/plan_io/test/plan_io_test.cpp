@@ -51,7 +51,7 @@ Plan any_plan(Rng& rng) {
   const auto n = static_cast<unsigned>(1 + rng.below(6));
   for (unsigned i = 0; i < n; ++i) a.parts.push_back({i, "päрт " + std::to_string(i), "f.obj"});
   const auto part = [&] { return a.parts[rng.below(n)].name; };
-  for (std::uint64_t k = rng.below(3); k > 0; --k) a.excluded.emplace_back("x\t", "not watertight");
+  for (std::uint64_t k = rng.below(3); k > 0; --k) a.excluded.push_back({"x\t", "not watertight", rng.below(2) == 0});
   for (unsigned i = 1; i < n; ++i) a.overlaps.push_back({a.parts[i - 1].name, a.parts[i].name, rng.uniform()});
   if (rng.below(2)) a.repair = {rng.uniform(0, 0.01), rng.below(2) == 0, rng.uniform()};
   const auto steps = [&] {
@@ -79,6 +79,10 @@ Plan any_plan(Rng& rng) {
   plan.assembly_status = static_cast<AssemblyStatus>(rng.below(3));
   plan.assembly_message = rng.below(2) ? "no way for 'x'" : "";
   plan.status = rng.below(2) ? PlanStatus::complete : PlanStatus::partial;
+  if (rng.below(3) == 0) plan.asked.part = part();
+  if (rng.below(3) == 0) plan.asked.target = part();
+  if (rng.below(3) == 0) plan.asked.together = {{part()}, {a.parts[0].name, a.parts[n - 1].name}};
+  if (n == 1) plan.asked.together.clear();
   plan.seed = rng.next();
   plan.verified_max_penetration = rng.uniform() + 1e-6;
   plan.remaining = {part()};
@@ -166,6 +170,7 @@ TEST(PlanIo, ReadingGivesBackWhatWasWritten) {
       EXPECT_EQ(a.assembly.parts[i].name, b.assembly.parts[i].name);
     for (std::size_t i = 0; i < a.assembly.overlaps.size(); ++i)
       EXPECT_EQ(a.assembly.overlaps[i].depth, b.assembly.overlaps[i].depth);
+    EXPECT_EQ(a.asked, b.asked);
     EXPECT_EQ(a.status, b.status);
     EXPECT_EQ(a.seed, b.seed);
     EXPECT_EQ(a.verified_max_penetration, b.verified_max_penetration);

@@ -25,7 +25,7 @@ void check_same_files(const Plan& plan, const InputParts& input, const std::stri
 void keep_parts_of(const Plan& plan, std::vector<RawPart>& parts, const std::string& source) {
   std::set<std::string> planned, excluded, found;
   for (const auto& part : plan.assembly.parts) planned.insert(part.name);
-  for (const auto& part : plan.assembly.excluded) excluded.insert(part.first);
+  for (const auto& part : plan.assembly.excluded) excluded.insert(part.name);
   for (const auto& part : parts) {
     found.insert(part.name);
     if (!planned.contains(part.name) && !excluded.contains(part.name))

@@ -105,6 +105,18 @@ TEST_F(CheckPlan, APartialPlanIsValidAndNotComplete) {
   EXPECT_FALSE(check().complete);
 }
 
+TEST_F(CheckPlan, APlanIsCompleteWhenWhatItWasAskedForIsDone) {
+  plan_.disassembly.pop_back();  // part1 and part2 are still together
+  for (const PlanAsked& asked :
+       {PlanAsked{.part = "part0"}, PlanAsked{.target = "part0"}, PlanAsked{.together = {{"part1", "part2"}}}}) {
+    plan_.asked = asked;
+    EXPECT_TRUE(check().valid);
+    EXPECT_TRUE(check().complete);
+  }
+  plan_.asked = {.target = "part2"};
+  expect_problem(0, "says that it is complete");
+}
+
 TEST_F(CheckPlan, GroupsLeaveTogetherAndAreTakenApartLater) {
   plan_.disassembly = {slide(1, {"part0", "part1"}, {{-4, 0, 0}, {-4, 0, 0}}, {{"part0", "part1"}})};
   EXPECT_FALSE(check().complete);

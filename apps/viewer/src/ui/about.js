@@ -8,9 +8,9 @@ export function makeAbout(app) {
   const row = (name, ...value) => rows.push(element('dt', {}, name), element('dd', {}, ...value));
   const worst = Math.max(0, ...plan.disassembly.map(s => s.max_penetration));
   const total = plan.disassembly.reduce((sum, s) => sum + s.seconds, 0);
-  const apart = assembly.parts.length - plan.remaining.length;
   row('assembly', assembly.source);
-  row('parts', plan.status !== 'partial' ? `${assembly.parts.length}, all apart` : `${assembly.parts.length}, ${apart} came out, ${plan.remaining.length} still together`);
+  row('parts', `${assembly.parts.length}, ${plan.remaining.length} stay`);
+  row('result', app.model.result.text);
   if (assembly.excluded.length > 0) row('left out', assembly.excluded.map(e => `${e.name}: ${e.reason}`).join('; '));
   row('steps', `${plan.disassembly.length}, found in ${seconds(total)}`);
   const layers = Math.max(0, ...plan.disassembly.map(s => s.layer ?? 0));

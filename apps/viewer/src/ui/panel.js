@@ -6,15 +6,11 @@ import {makePartList} from './partlist.js';
 import {makeProblems} from './problems.js';
 import {makeSteps} from './steps.js';
 
-function summary(plan) {
-  const parts = plan.assembly.parts.length, left = plan.remaining.length, out = parts - left;
+function summary({plan, result}) {
   const forced = plan.disassembly.filter(s => s.forced).length;
-  const complete = plan.status === 'complete';
-  const apart = complete || plan.status === 'forced';
-  const words = apart ? `All ${parts} parts come apart, in ${counted(plan.disassembly.length, 'step')}`
-    : `${out} of ${counted(parts, 'part')} ${out === 1 ? 'comes' : 'come'} out, ${left} still together`;
-  return element('div.summary', {}, element(`span.pill.${complete ? 'good' : 'bad'}`, {}, complete ? 'Complete' : apart ? 'Forced' : 'Partial'),
-    element('span', {}, words), forced > 0 ? element('span.pill.bad', {}, `${counted(forced, 'step')} not verified`) : null);
+  const [word, ...words] = result.text.split(': ');
+  return element('div.summary', {}, element(`span.pill.${result.word === 'complete' ? 'good' : 'bad'}`, {}, word[0].toUpperCase() + word.slice(1)),
+    element('span', {}, `${counted(plan.assembly.parts.length, 'part')}, ${counted(plan.disassembly.length, 'step')}: ${words.join(': ')}`), forced > 0 ? element('span.pill.bad', {}, `${counted(forced, 'step')} not verified`) : null);
 }
 
 export function makePanel(app) {
@@ -36,6 +32,6 @@ export function makePanel(app) {
   }
   open(plan.disassembly.length === 0 && problems ? 'problems' : 'steps');
   app.openTab = open;
-  return element('aside.panel', {}, element('header.top', {}, element('h1', {title: plan.assembly.source}, titleOf(plan)), summary(plan)),
+  return element('aside.panel', {}, element('header.top', {}, element('h1', {title: plan.assembly.source}, titleOf(plan)), summary(app.model)),
     element('div.tabs', {role: 'tablist'}, buttons), tabs.map(([, , pane]) => pane));
 }

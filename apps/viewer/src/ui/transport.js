@@ -23,7 +23,8 @@ export function captionOf(app, index) {
 function endOf(app) {
   const {plan} = app.model;
   if (app.mode === 'assembly') return plan.assembly_status === 'partial' ? 'Put together, as far as there are paths' : 'Put together';
-  return plan.status !== 'partial' ? 'All parts are apart' : `${counted(plan.remaining.length, 'part')} still together`;
+  const {text} = app.model.result;
+  return text[0].toUpperCase() + text.slice(1);
 }
 
 export function makeTransport(app) {

@@ -1,7 +1,7 @@
 #include <numbers>
 
 #include "dismantle/plan_io/explain.h"
-#include "dismantle/plan_io/plan_file.h"
+#include "dismantle/plan_io/summary.h"
 #include "json/json_text.h"
 
 namespace dismantle {
@@ -67,8 +67,8 @@ std::string explain_json(const Explanation& e) {
     steps.push_back(std::move(one));
   }
   for (const LeftReason& reason : e.left) left.push_back(reason_json(plan, reason));
-  for (const auto& [name, reason] : plan.assembly.excluded) excluded.push_back({{"name", name}, {"reason", reason}});
-  const Json out = {{"status", std::string(to_string(plan.status))},
+  for (const PlanExcluded& e : plan.assembly.excluded) excluded.push_back({{"name", e.name}, {"reason", e.reason}});
+  const Json out = {{"status", result_word(plan)},
                     {"unit", plan.assembly.unit.empty() ? "input units" : plan.assembly.unit},
                     {"parts", plan.assembly.parts.size()},
                     {"left", std::move(left)},

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "dismantle/plan_io/explain.h"
+#include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/text_columns.h"
 
 namespace dismantle {
@@ -123,11 +124,8 @@ std::string explain_text(const Explanation& e) {
   std::string out =
       fmt::format("{}: {}, {} done, {}\n", a.source, text::counted(a.parts.size(), "part"),
                   text::counted(plan.disassembly.size(), "step"),
-                  plan.status == PlanStatus::complete ? "every part came out"
-                  : plan.status == PlanStatus::forced
-                      ? fmt::format("every part came out, in {} by force", text::counted(plan.forced_steps(), "step"))
-                      : text::counted(plan.remaining.size(), "part") + " left");
-  for (const auto& [name, reason] : a.excluded) out += fmt::format("left out: {}: {}\n", name, reason);
+                  result_text(plan));
+  for (const PlanExcluded& e : a.excluded) out += fmt::format("left out: {}: {}\n", e.name, e.reason);
   for (const LeftReason& reason : e.left) out += reason_text(plan, reason);
   if (!e.untried.empty())
     out += fmt::format("\nstill together, without a failed search on record: {}\n", text::joined(e.untried));

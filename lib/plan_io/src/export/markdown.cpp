@@ -5,6 +5,7 @@
 
 #include "dismantle/plan_io/exports.h"
 #include "dismantle/plan_io/motion_words.h"
+#include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/text_columns.h"
 #include "dismantle/plan_io/verdicts.h"
 #include "export/dot_text.h"
@@ -50,9 +51,7 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
   std::string out =
       fmt::format("# {}\n\n{}, {}, {}.\n\n", markdown_text(a.source), text::counted(a.parts.size(), "part"),
                   text::counted(plan.disassembly.size(), "step"),
-                  plan.status == PlanStatus::complete ? "complete: all parts come apart"
-                  : plan.status == PlanStatus::forced ? "forced: all parts come apart, some steps cut into other parts"
-                                                      : "partial: not all parts come apart");
+                  markdown_text(result_text(plan)));
   const bool judged = !plan.objective.empty();
   if (judged) out += markdown_text(objective_text(plan)) + ".\n\n";
   if (!plan.disassembly.empty()) {
@@ -89,8 +88,8 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
   }
   if (!a.excluded.empty()) {
     out += "\n| left out | reason |\n|---|---|\n";
-    for (const auto& [name, reason] : a.excluded)
-      out += fmt::format("| {} | {} |\n", markdown_text(name), markdown_text(reason));
+    for (const PlanExcluded& e : a.excluded)
+      out += fmt::format("| {} | {} |\n", markdown_text(e.name), markdown_text(e.reason));
   }
   return out;
 }

@@ -201,10 +201,17 @@ void fields(auto& v, Is<PlanOverlap> auto& o) {
   v.inlined(o.place);  // files of older versions do not say what kind of overlap it is
 }
 
-/// Excluded parts.
-void fields(auto& v, Is<std::pair<std::string, std::string>> auto& excluded) {
-  v("name", excluded.first);
-  v("reason", excluded.second);
+void fields(auto& v, Is<PlanExcluded> auto& e) {
+  v("name", e.name);
+  v("reason", e.reason);
+  v("unusable", e.unusable, if_set);
+}
+
+/// Files of older versions do not say what was asked for.
+void fields(auto& v, Is<PlanAsked> auto& a) {
+  v("part", a.part, if_set, part);
+  v("target", a.target, if_set, part);
+  v("together", a.together, if_set, list(group));
 }
 
 void fields(auto& v, Is<SurfaceRepair> auto& r) {
@@ -235,6 +242,7 @@ void fields(auto& v, Is<Plan> auto& p) {
     generator("version", p.generator_version);
   });
   v("assembly", p.assembly);
+  v("asked", p.asked, if_set);
   v("status", p.status, required, enumerator(PlanStatus::partial, "\"complete\", \"forced\" or \"partial\""));
   v("seed", p.seed);
   v("verified_max_penetration", p.verified_max_penetration, required, positive);

@@ -49,8 +49,7 @@ class Checker {
       context_.progress("verify", done++, total, title(plan_.disassembly[i]));
       disassembly_step(plan_.disassembly[i], i);
     }
-    const bool complete =
-        std::all_of(state_.groups.begin(), state_.groups.end(), [](const Group& g) { return g.size() <= 1; });
+    const bool complete = state_.does(plan_.asked);
     check_end(complete);
     check_certificates();
     if (!stopped()) assembly_steps(done, total);

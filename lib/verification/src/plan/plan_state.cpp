@@ -86,6 +86,15 @@ std::optional<StepMotion> PlanState::read(const std::vector<PlanMove>& moves,
   return motion;
 }
 
+bool PlanState::does(const PlanAsked& asked) const {
+  std::vector<std::vector<std::string>> names;
+  for (const auto& group : groups) {
+    names.emplace_back();
+    for (const PartId id : group) names.back().push_back(name(id));
+  }
+  return is_done(asked, names);
+}
+
 double PlanState::offset(PartId id, const Pose& a, const Pose& b) const {
   const Aabb box = assembly_->parts[id].mesh->box();
   double worst = 0;

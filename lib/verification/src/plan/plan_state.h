@@ -33,6 +33,9 @@ class PlanState {
   /// Largest distance between the corners of the part's box at the two poses, assembly units.
   double offset(PartId id, const Pose& a, const Pose& b) const;
 
+  /// Do the groups satisfy what was asked for?
+  bool does(const PlanAsked& asked) const;
+
   std::vector<Pose> place;                  ///< by part, assembly units
   std::vector<std::vector<PartId>> groups;  ///< parts that are not separated yet
   double tolerance() const { return 1e-6 * size_; }

@@ -1,4 +1,4 @@
-/// Plans in words, for a terminal. UTF-8, each text ends with a line break.
+/// Plans in words. UTF-8.
 #pragma once
 
 #include <string>
@@ -8,7 +8,11 @@
 
 namespace dismantle {
 
-/// What came out in which order, what stays, what was left out, what could not be solved.
+/// Is what was asked for done? "complete" (Plan::succeeded()), "forced" or "partial".
+DISMANTLE_API std::string result_word(const Plan& plan);
+/// The same with what was asked for: "complete: cover is out, which was the target". No line break.
+DISMANTLE_API std::string result_text(const Plan& plan);
+/// For a terminal, with a line break at the end: what came out in which order, what stays, what was left out, what could not be solved.
 DISMANTLE_API std::string summary_text(const Plan& plan);
 
 }  // namespace dismantle

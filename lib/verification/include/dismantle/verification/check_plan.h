@@ -24,7 +24,7 @@ struct PlanProblem {
 /// Result of the check of a whole plan.
 struct PlanCheck {
   bool valid = false;                 ///< all motions, separations, stated depths and certificates are as the plan says
-  bool complete = false;              ///< valid, no step is forced, and every group is down to one part
+  bool complete = false;              ///< valid, no step is forced, and what was asked for is done (is_done())
   std::size_t forced = 0;             ///< forced steps: not valid motions; their stated depths were checked
   std::size_t certificates = 0;       ///< number of certificates that hold
   std::size_t checked_by_prover = 0;  ///< those checked by their prover, since there is no independent checker

@@ -34,9 +34,12 @@ struct VerifyBudget {
   VerifyBudget times(double factor) const;
 };
 
+/// Assembly units; the largest edge of an assembly is 10, unless it was scaled otherwise.
+inline constexpr double kDefaultTolerance = 0.01;
+
 /// How strict the verifier is.
 struct VerifyOptions {
-  double max_penetration = 0.01;  ///< assembly units, > 0; above the pair's initial overlap
+  double max_penetration = kDefaultTolerance;  ///< assembly units, > 0; above the pair's initial overlap
   VerifyBudget budget = {};
 };
 
