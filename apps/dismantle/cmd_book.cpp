@@ -1,17 +1,12 @@
 // dismantle book PLAN.json -o FILE.html|FILE.pdf
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
 #include "dismantle/frame_options.h"
-#include "dismantle/host/planning_setup.h"
-#include "dismantle/plan_file.h"
-#include "dismantle/plan_io/plan_file.h"
+#include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/write_file.h"
-#include "dismantle/preparation/assembly_of_plan.h"
 #include "dismantle/settings.h"
 #include "dismantle/stopped.h"
 #ifdef DISMANTLE_BOOK_LIBRARY
@@ -40,24 +35,14 @@ int write_book(const BookCommand& options) {
   if (!pdf && !ends_with(output, ".html") && !ends_with(output, ".htm"))
     throw Error(output + ": the ending says what is written: .html or .pdf");
   const BookLibrary& library = book_library();
-  Registry registry;
-  registry.scan();
-  warn_of_problems(registry, console);
-  RunSettings settings;
-  settings.timeout = 0;
-  RunContext context = context_of(settings, console);
-
+  const Session session = reader(console);
+  RunContext context = context_of(session, console);
+  BookOptions how;
   const Plan plan = read_plan(options.plan);
-  const InputFrame frame = frame_of(plan, options.frame);
-  const std::string source = source_of(plan, options.plan, options.assembly);
-  ReadOptions read;
-  read.max_triangles = std::numeric_limits<std::int64_t>::max();
+  how.frame = frame_of(plan, options.frame);
   std::size_t pages = 0;
   const std::string book = stoppable(context, [&] {
-    const Assembly assembly =
-        assembly_of_plan(plan, read_input(source, importers_of(registry), read, context), source, context);
-    BookOptions how;
-    how.frame = frame;
+    const Assembly assembly = session.assembly_of(plan, source_of(plan, options.plan, options.assembly), context);
     how.disassembly = options.disassembly;
     how.title = options.title;
     how.on_page = [&](std::size_t page, std::size_t count) {
@@ -71,7 +56,7 @@ int write_book(const BookCommand& options) {
   console.end_progress();
   console.text(fmt::format("wrote {}: {} steps\n", output, pages));
   console.result(
-      {{"status", std::string(to_string(plan.status))}, {"steps", pages}, {"book", output}, {"plan", options.plan}});
+      {{"status", result_word(plan)}, {"steps", pages}, {"book", output}, {"plan", options.plan}});
   return kComplete;
 }
 #else

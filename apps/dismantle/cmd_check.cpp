@@ -70,17 +70,17 @@ int finish(const AssemblyCheck& check, const Check& options, bool usable, Consol
 
 int check(const Check& options) {
   Console console(options.console);
-  Registry registry;
-  const RunConfig config = load_config(options.config.source(), registry);
-  for (const auto& warning : config.warnings) console.warning(warning);
-  warn_of_problems(registry, console);
-  RunContext context = context_of(config.run, console);
+  const Session session(options.config.source());
+  warn_of_problems(session, console);
+  RunContext context = context_of(session, console);
   context.on_log = nullptr;  // the findings contain everything
   PrepareReport report;
   try {
-    const Assembly assembly = load_assembly(options.input, config, registry, context, report);
+    const LoadedAssembly loaded =
+        stoppable(context, [&] { return session.load(options.input, context, {.report = &report}); });
+    const Assembly& assembly = *loaded.assembly;
     AssemblyCheck found = stoppable(context, [&] {
-      const double resolution = 0.01 * config.verify.max_penetration;  // far below the tolerance of the verifier
+      const double resolution = 0.01 * session.config().verify.max_penetration;  // far below the tolerance of the verifier
       return check_assembly(assembly, report, resolution, context);
     });
     if (!options.pictures.empty()) draw_pairs(found, assembly, options, context);

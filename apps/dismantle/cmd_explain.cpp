@@ -5,9 +5,8 @@
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
 #include "dismantle/host/suggest.h"
-#include "dismantle/plan_file.h"
 #include "dismantle/plan_io/explain.h"
-#include "dismantle/settings_beside.h"
+#include "dismantle/session/session.h"
 
 namespace dismantle::app {
 namespace {

@@ -2,18 +2,14 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <limits>
 
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
 #include "dismantle/frame_options.h"
-#include "dismantle/host/planning_setup.h"
-#include "dismantle/plan_file.h"
 #include "dismantle/plan_io/animation.h"
 #include "dismantle/plan_io/exports.h"
 #include "dismantle/plan_io/write_file.h"
-#include "dismantle/preparation/assembly_of_plan.h"
 #include "dismantle/settings.h"
 #include "dismantle/stopped.h"
 
@@ -57,22 +53,6 @@ struct ExportOptions {
   ConsoleOptions console;
 };
 
-/// Reads the parts of the plan from its input again.
-Assembly assembly_for(const Plan& plan, const ExportOptions& options, Console& console) {
-  Registry registry;
-  registry.scan();
-  warn_of_problems(registry, console);
-  RunSettings settings;
-  settings.timeout = 0;
-  RunContext context = context_of(settings, console);
-  const std::string source = source_of(plan, options.plan, options.assembly);
-  ReadOptions read;
-  read.max_triangles = std::numeric_limits<std::int64_t>::max();
-  return stoppable(context, [&] {
-    return assembly_of_plan(plan, read_input(source, importers_of(registry), read, context), source, context);
-  });
-}
-
 int export_plan(const ExportOptions& options) {
   Console console(options.console);
   const ExportFormat* format = nullptr;
@@ -87,7 +67,11 @@ int export_plan(const ExportOptions& options) {
   if (format->of_plan != nullptr) {
     content = format->of_plan(plan, frame);
   } else {
-    const Assembly assembly = assembly_for(plan, options, console);
+    const Session session = reader(console);
+    RunContext context = context_of(session, console);
+    const Assembly assembly = stoppable(context, [&] {
+      return session.assembly_of(plan, source_of(plan, options.plan, options.assembly), context);
+    });
     if (format->binary && !frame.unit_known)
       console.warning(fmt::format("the files do not name their unit: {} is assumed; --unit names another", frame.unit));
     content = format->of_assembly(plan, assembly, frame);

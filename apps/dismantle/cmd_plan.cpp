@@ -11,15 +11,15 @@
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/crash_handler.h"
-#include "dismantle/engine/run.h"
 #include "dismantle/errors.h"
-#include "dismantle/host/planning_setup.h"
 #include "dismantle/isolation.h"
 #include "dismantle/plan_files.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/plan_report.h"
+#include "dismantle/session/session.h"
 #include "dismantle/settings.h"
+#include "dismantle/stopped.h"
 #include "dismantle/unfinished_run.h"
 #include "dismantle/watchdog.h"
 
@@ -68,58 +68,52 @@ void take_notes(RunNotes& notes, const RunConfig& config, RunContext& context) {
 /// `isolated`: this is the child process of a run with --isolate.
 int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
   Console console(options.console);
-  Registry registry;
   const auto watch_for_crashes = [&](const Registry* known) {
     report_crashes(known, notes, isolated ? AfterCrash::hand_over : AfterCrash::exit,
                    options.console.format == Format::json);
   };
   watch_for_crashes(nullptr);  // plugins run code while they are loaded
-  const RunConfig config = load_config(options.config.source(), registry);
-  watch_for_crashes(&registry);
-  for (const auto& warning : config.warnings) console.warning(warning);
-  warn_of_problems(registry, console);
-  const PlanningSetup setup = planning_setup_of(config, registry);
-  RunContext context = context_of(config.run, console);
+  const Session session(options.config.source());
+  const RunConfig& config = session.config();
+  watch_for_crashes(&session.registry());
+  warn_of_problems(session, console);
+  session.check({.part = options.part});
+  RunContext context = context_of(session, console);
   take_notes(notes, config, context);
 
   const fs::path folder = options.folder.empty() ? default_folder(options.input) : fs::path(options.folder);
-  PrepareReport report;
   if (!options.folder.empty()) open_output_folder(folder);
   remove_old_results(folder, options.input);
   GiveUp give_up(config, context, folder, console);
   std::optional<Watchdog> watchdog(std::in_place, context, config.run.grace, [&give_up] { give_up(); });
-  const Assembly assembly = load_assembly(options.input, config, registry, context, report, options.part);
-  RunOptions run_options = run_options_of(config, options.part);
-  run_options.constraints = constraints_of(config.constraints, assembly);
-  run_options.flexible = report.flexible;
-  if (!run_options.constraints.empty() && options.part.empty() && !setup.sequence_planner->traits().keeps_constraints)
-    throw Error(fmt::format("there are constraints, and sequence planner '{}' does not keep any; 'blocking' does",
-                            config.sequence_planner.type));
+  const LoadedAssembly loaded =
+      stoppable(context, [&] { return session.load(options.input, context, {.part = options.part}); });
+  const Assembly& assembly = *loaded.assembly;
+  Saver saver(folder / "plan.json", session, loaded, options.part, console);
   open_output_folder(folder);
-  write_file(folder / "resolved.yaml", resolved_yaml(config, registry, folder));
+  write_file(folder / "resolved.yaml", session.resolved(folder));
 
   const bool careful = isolated || third_party(config.simulator.type) || third_party(config.path_planner.type) ||
                        third_party(config.sequence_planner.type);
-  Saver saver(folder / "plan.json", assembly, run_options, console,
-              careful ? Saver::When::every_step : Saver::When::every_second);
   give_up.has(assembly, saver);
   const std::string saved = (folder / "plan.json").string();
   if (careful) {
-    saver.save();
+    saver.save_every_step();
     notes.plan.set(saved);
   }
   const auto on_step = [&](const Disassembly& so_far, const DisassemblyStep& newest) {
     saver(so_far, newest);
     notes.plan.set(saved);
   };
-  const RunResult result = stoppable(context, [&] { return run(assembly, setup, run_options, context, on_step); });
+  const RunResult result =
+      stoppable(context, [&] { return session.plan(loaded, context, {options.part, on_step}); });
   watchdog.reset();  // no plugin runs after this
-  const auto files = write_results(result, assembly, folder, console);
+  const auto files = write_all(result, assembly, folder, console);
   console.end_progress();
 
-  const int status = status_of(result, assembly, !options.part.empty(), !run_options.constraints.empty(), context);
+  const int status = status_of(result, context);
   std::string text = summary_text(result.plan) + effort_text(result, options.console.verbose);
-  if (const auto names = unusable_parts(assembly); !names.empty())
+  if (const auto names = unusable_parts(result.plan); !names.empty())
     text +=
         fmt::format("{} of {} parts could not be used and {} not in the plan (see 'left out'): exit status 1\n",
                     names.size(), assembly.parts.size() + assembly.excluded.size(), names.size() == 1 ? "is" : "are");
@@ -129,7 +123,7 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
   text += fmt::format("wrote to {}:", folder.string());
   for (const auto& file : files) text += " " + file;
   console.text(text + "\n");
-  console.result(result_json(result, assembly, status, folder / "plan.json"));
+  console.result(result_json(result, status, folder / "plan.json"));
   return status;
 }
 
@@ -180,8 +174,8 @@ void add_plan(CLI::App& app, Action& action) {
       "Writes index.html (to look at in a browser), plan.json, plan.glb (the animation), precedence.dot and\n"
       "resolved.yaml; those of an earlier run in that folder are removed first. Ctrl-C once stops soon and saves,\n"
       "twice stops now.\n"
-      "Exit status: 0 every part came out; 1 not so, or some parts could not be used; 2 usage or configuration;\n"
-      "3 unusable input; 4 a plugin failed or did not stop; 130 interrupted.\n"
+      "Exit status: 0 what was asked for is done, every step verified; 1 not so, or some parts could not be used;\n"
+      "2 usage or configuration; 3 unusable input; 4 a plugin failed or did not stop; 130 interrupted.\n"
       "Examples:\n"
       "  dismantle sample machine -o gearbox\n"
       "  dismantle plan gearbox/\n"

@@ -9,6 +9,7 @@
 #include "dismantle/preparation/write_prepared.h"
 #include "dismantle/report_text.h"
 #include "dismantle/settings.h"
+#include "dismantle/stopped.h"
 
 namespace dismantle::app {
 namespace {
@@ -21,22 +22,22 @@ struct Prepare {
 
 int prepare(const Prepare& options) {
   Console console(options.console);
-  Registry registry;
-  const RunConfig config = load_config(options.config.source(), registry);
-  for (const auto& warning : config.warnings) console.warning(warning);
-  warn_of_problems(registry, console);
+  const Session session(options.config.source());
+  warn_of_problems(session, console);
   // The output meshes would be parts of the next run, or replace the input.
   if (std::error_code error; std::filesystem::equivalent(options.input, options.folder, error))
     throw Error(fmt::format("{}: is the input itself: name another folder with -o", options.folder));
   open_output_folder(options.folder);
-  RunContext context = context_of(config.run, console);
-  PrepareReport report;
-  const Assembly assembly = load_assembly(options.input, config, registry, context, report);
-  const auto files = write_prepared(assembly, report, options.folder);
+  RunContext context = context_of(session, console);
+  const LoadedAssembly loaded = stoppable(context, [&] { return session.load(options.input, context); });
+  const Assembly& assembly = *loaded.assembly;
+  const auto files = write_prepared(assembly, loaded.report, options.folder);
   console.end_progress();
-  console.text(prepare_text(assembly, report, options.console.verbose) +
+  console.text(prepare_text(assembly, loaded.report, options.console.verbose) +
                fmt::format("wrote {} files to {}\n", files.size(), options.folder));
-  const auto unusable = unusable_parts(assembly);
+  std::vector<std::string> unusable;
+  for (const ExcludedPart& part : assembly.excluded)
+    if (!part.by_choice) unusable.push_back(part.name);
   console.result({{"status", unusable.empty() ? "complete" : "partial"},
                   {"parts", assembly.parts.size()},
                   {"excluded", assembly.excluded.size()},

@@ -1,18 +1,11 @@
 // dismantle verify PLAN.json
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
-#include "dismantle/host/planning_setup.h"
-#include "dismantle/loaded_plan.h"
-#include "dismantle/preparation/prepare.h"
+#include "dismantle/plan_io/summary.h"
 #include "dismantle/report_text.h"
+#include "dismantle/settings.h"
 #include "dismantle/stopped.h"
-#include "dismantle/verification/check_plan.h"
 
 namespace dismantle::app {
 namespace {
@@ -23,49 +16,20 @@ struct Verify {
   ConsoleOptions console;
 };
 
-/// The tolerance of the verification: that of the plan, limited to the largest one for valid plans. A plan states its
-/// own scale, so the tolerance is also bounded relative to the size of the assembly. A plan with a wrong scale thus
-/// cannot increase it.
-double tolerance_of(const Plan& plan, const Assembly& assembly, Console& console) {
-  const double most = VerifyOptions{}.max_penetration, usual_size = PrepareOptions{}.size;
-  if (plan.verified_max_penetration > most)
-    console.warning(
-        fmt::format("the plan was made with a tolerance of {:.3g}; it is verified with {:.3g} assembly units",
-                    plan.verified_max_penetration, most));
-  const double size = assembly.normalization.scale * assembly.input_box.size().maxCoeff();
-  const double tolerance = std::min({plan.verified_max_penetration, most, most / usual_size * size});
-  if (std::abs(size - usual_size) > 1e-6)
-    console.warning(
-        fmt::format("the largest edge of the assembly is {:.6g} of the plan's units, usually it is {:g}: the "
-                    "tolerance is {:.2g} of it",
-                    size, usual_size, tolerance / size));
-  return tolerance;
-}
-
 int verify(const Verify& options) {
   Console console(options.console);
-  Registry registry;
-  RunContext context = context_for_reading(registry, console);
-  const auto [plan, assembly] = load_plan(options.plan, options.assembly, registry, context);
-  VerifyOptions tolerance;
-  tolerance.max_penetration = tolerance_of(plan, assembly, console);
-  tolerance.budget = tolerance.budget.times(options.effort);
-  if (const SurfaceRepair& r = plan.assembly.repair; r != SurfaceRepair{})
-    console.warning(fmt::format(
-        "the plan was made with weld: {:g}, repair: {}, max_hole: {:g}; surfaces are verified as repaired with these",
-        r.weld, r.repair, r.max_hole));
-  PlanCheck check = check_plan(plan, assembly, tolerance, context, prover_of_kind(registry));
-  judge_again(check, plan, assembly, check_of_type(registry), context);
+  const Session session = reader(console);
+  RunContext context = context_of(session, console);
+  const auto [plan, assembly] =
+      stoppable(context, [&] { return session.load_plan(options.plan, options.assembly, context); });
+  const PlanCheck check = session.verify(plan, assembly, context, {.effort = options.effort});
   console.end_progress();
   if (context.cancel.cancelled()) throw Stopped(context, "interrupted before all steps were checked");
 
   console.text(check_text(plan, check));
   auto problems = nlohmann::ordered_json::array();
   for (const auto& p : check.problems) problems.push_back({{"step", p.step}, {"message", p.message}});
-  console.result({{"status", !check.valid                        ? "invalid"
-                             : check.complete                    ? "complete"
-                             : plan.status == PlanStatus::forced ? "forced"
-                                                                 : "partial"},
+  console.result({{"status", check.valid ? result_word(plan) : "invalid"},
                   {"parts", assembly.parts.size()},
                   {"steps", plan.disassembly.size()},
                   {"max_penetration", check.max_penetration},
@@ -77,7 +41,7 @@ int verify(const Verify& options) {
                   {"not_checked", check.not_checked},
                   {"problems", problems},
                   {"plan", options.plan}});
-  return check.valid && check.complete ? kComplete : kPartial;
+  return check.valid && plan.succeeded() ? kComplete : kPartial;
 }
 
 }  // namespace

@@ -4,12 +4,10 @@
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
-#include "dismantle/loaded_plan.h"
-#include "dismantle/plan_io/page.h"
-#include "dismantle/plan_io/plan_file.h"
+#include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/write_file.h"
-#include "dismantle/settings_beside.h"
-#include "dismantle/viewer_template.h"
+#include "dismantle/settings.h"
+#include "dismantle/stopped.h"
 
 namespace dismantle::app {
 namespace {
@@ -21,18 +19,18 @@ struct ViewOptions {
 
 int view(const ViewOptions& options) {
   Console console(options.console);
-  const auto page_template = viewer_template();
-  if (!page_template) throw Error(kNoViewer);
-  Registry registry;
-  RunContext context = context_for_reading(registry, console);
-  const auto [plan, assembly] = load_plan(options.plan, options.assembly, registry, context);
+  if (!has_viewer()) throw Error(kNoViewer);
+  const Session session = reader(console);
+  RunContext context = context_of(session, console);
+  const auto [plan, assembly] =
+      stoppable(context, [&] { return session.load_plan(options.plan, options.assembly, context); });
   const std::filesystem::path page = options.output.empty()
                                          ? std::filesystem::path(options.plan).replace_filename("index.html")
                                          : std::filesystem::path(options.output);
-  write_file(page, to_page(plan, assembly, *page_template, settings_beside(options.plan)));
+  write_file(page, page_of(plan, assembly, settings_beside(options.plan)));
   console.end_progress();
   console.text(fmt::format("wrote {}: open it in a browser\n", page.string()));
-  console.result({{"status", std::string(to_string(plan.status))},
+  console.result({{"status", result_word(plan)},
                   {"parts", assembly.parts.size()},
                   {"steps", plan.disassembly.size()},
                   {"page", page.string()},

@@ -6,12 +6,8 @@
 #include <utility>
 
 #include "dismantle/errors.h"
-#include "dismantle/plan_io/animation.h"
-#include "dismantle/plan_io/page.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/write_file.h"
-#include "dismantle/settings_beside.h"
-#include "dismantle/viewer_template.h"
 
 namespace dismantle::app {
 
@@ -27,41 +23,36 @@ void remove_old_results(const fs::path& folder, const fs::path& input) {
   }
 }
 
-std::vector<std::string> write_results(const RunResult& result, const Assembly& assembly, const fs::path& folder,
-                                       Console& console) {
-  write_file(folder / "plan.json", to_json(result.plan));
-  const auto glb = to_glb(result.plan, assembly);
-  write_file(folder / "plan.glb", std::string(glb.begin(), glb.end()));
-  write_file(folder / "precedence.dot", to_dot(result.plan, result.precedence));
-  std::vector<std::string> files = {"plan.json", "plan.glb", "precedence.dot", "resolved.yaml"};
-  if (const auto page_template = viewer_template()) {
-    const ExplainSettings settings = settings_beside(folder / "plan.json");
-    write_file(folder / "index.html", to_page(result.plan, assembly, *page_template, settings));
-    files.insert(files.begin(), "index.html");
-  } else {
-    console.warning(std::string("index.html was not written: ") + kNoViewer);
-  }
+std::vector<std::string> write_all(const RunResult& result, const Assembly& assembly, const fs::path& folder,
+                                   Console& console) {
+  std::vector<std::string> files = write_results(result, assembly, folder);
+  if (!has_viewer()) console.warning(std::string("index.html was not written: ") + kNoViewer);
+  files.emplace_back("resolved.yaml");
   return files;
 }
 
-Saver::Saver(fs::path file, const Assembly& assembly, const RunOptions& options, Console& console, When when)
+Saver::Saver(fs::path file, const Session& session, const LoadedAssembly& loaded, std::string part, Console& console)
     : file_(std::move(file)),
-      assembly_(assembly),
-      options_(options),
+      session_(session),
+      loaded_(loaded),
+      part_(std::move(part)),
       console_(console),
-      latest_(options.start.empty() ? Disassembly(assembly.parts.size())
-                                    : Disassembly(assembly.parts.size(), options.start)),
-      when_(when) {}
+      latest_(loaded.assembly->parts.size()) {
+  latest();
+}
 
-void Saver::save() { write_file(file_, to_json(latest())); }
+void Saver::save_every_step() {
+  every_step_ = true;
+  write_file(file_, to_json(latest()));
+}
 
 void Saver::operator()(const Disassembly& so_far, const DisassemblyStep& newest) {
   {
     const std::lock_guard lock(mutex_);
     latest_.follow(so_far);
     const auto now = std::chrono::steady_clock::now();
-    if (!saved_once_ || when_ == When::every_step || now - saved_ >= std::chrono::seconds(1)) {
-      write_file(file_, to_json(plan_of(latest_, assembly_, options_)));
+    if (!saved_once_ || every_step_ || now - saved_ >= std::chrono::seconds(1)) {
+      write_file(file_, to_json(session_.plan_of(latest_, loaded_, {.part = part_})));
       saved_once_ = true;
       saved_ = now;
     }
@@ -71,14 +62,14 @@ void Saver::operator()(const Disassembly& so_far, const DisassemblyStep& newest)
 
 Plan Saver::latest() const {
   const std::lock_guard lock(mutex_);
-  return plan_of(latest_, assembly_, options_);
+  return session_.plan_of(latest_, loaded_, {.part = part_});
 }
 
 void Saver::report(const DisassemblyStep& step, std::size_t number) const {
   std::string out, part_way;
   for (const PartId id : step.parts) {
     std::string& names = step.leaves(id) ? out : part_way;
-    names += (names.empty() ? "" : ", ") + assembly_.parts[id].name;
+    names += (names.empty() ? "" : ", ") + loaded_.assembly->parts[id].name;
   }
   if (!out.empty()) out += " out";
   if (!part_way.empty()) out += (out.empty() ? "" : ", ") + part_way + " moved part-way";

@@ -9,8 +9,8 @@
 
 #include "dismantle/assembly.h"
 #include "dismantle/console.h"
-#include "dismantle/engine/run.h"
 #include "dismantle/plan.h"
+#include "dismantle/session/session.h"
 
 namespace dismantle::app {
 
@@ -18,21 +18,20 @@ namespace dismantle::app {
 /// run. Keeps `input`.
 void remove_old_results(const std::filesystem::path& folder, const std::filesystem::path& input);
 
-/// Returns the names of the files in `folder`.
-std::vector<std::string> write_results(const RunResult& result, const Assembly& assembly,
-                                       const std::filesystem::path& folder, Console& console);
+/// As write_results(), with a warning when there is no page, and resolved.yaml in the list.
+std::vector<std::string> write_all(const RunResult& result, const Assembly& assembly,
+                                   const std::filesystem::path& folder, Console& console);
 
 /// Saves the growing plan at every step, or at most once per second (a crash then loses the steps of one second).
 /// Thread-safe.
 class Saver {
  public:
-  enum class When { every_second, every_step };
+  /// The references must outlive this. @throws InputError, Error when the assembly cannot be planned with these settings.
+  Saver(std::filesystem::path file, const Session& session, const LoadedAssembly& loaded, std::string part,
+        Console& console);
 
-  /// Both references must outlive this.
-  Saver(std::filesystem::path file, const Assembly& assembly, const RunOptions& options, Console& console, When when);
-
-  /// Saves the current plan.
-  void save();
+  /// Saves the current plan, and from now on at every step.
+  void save_every_step();
 
   /// Takes another step.
   void operator()(const Disassembly& so_far, const DisassemblyStep& newest);
@@ -43,14 +42,15 @@ class Saver {
   void report(const DisassemblyStep& step, std::size_t number) const;
 
   std::filesystem::path file_;
-  const Assembly& assembly_;
-  const RunOptions& options_;
+  const Session& session_;
+  const LoadedAssembly& loaded_;
+  const std::string part_;
   Console& console_;
   mutable std::mutex mutex_;
   Disassembly latest_;
   bool saved_once_ = false;
   std::chrono::steady_clock::time_point saved_;
-  const When when_;
+  bool every_step_ = false;
 };
 
 }  // namespace dismantle::app

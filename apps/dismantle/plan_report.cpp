@@ -7,7 +7,8 @@
 #include <cstdint>
 
 #include "dismantle/command.h"
-#include "dismantle/settings.h"
+#include "dismantle/plan_io/plan_file.h"
+#include "dismantle/plan_io/summary.h"
 
 namespace dismantle::app {
 namespace {
@@ -34,22 +35,24 @@ nlohmann::ordered_json counters_json(const RunResult& result) {
 
 }  // namespace
 
-int status_of(const RunResult& result, const Assembly& assembly, bool one_part, bool constrained,
-              const RunContext& context) {
-  if (result.plan.forced_steps() > 0) return any_crash(result) ? kPluginFailed : kPartial;
-  const bool done = one_part || constrained ? is_success(result.outcome) : result.plan.status == PlanStatus::complete;
-  if (done) return one_part || unusable_parts(assembly).empty() ? kComplete : kPartial;
-  if (context.cancel.cancelled()) return kInterrupted;
+std::vector<std::string> unusable_parts(const Plan& plan) {
+  std::vector<std::string> names;
+  for (const PlanExcluded& part : plan.assembly.excluded)
+    if (part.unusable) names.push_back(part.name);
+  return names;
+}
+
+int status_of(const RunResult& result, const RunContext& context) {
+  if (result.plan.succeeded()) return kComplete;
+  if (result.plan.status == PlanStatus::partial && context.cancel.cancelled()) return kInterrupted;
   return any_crash(result) ? kPluginFailed : kPartial;
 }
 
-nlohmann::ordered_json result_json(const RunResult& result, const Assembly& assembly, int status,
-                                   const fs::path& plan) {
+nlohmann::ordered_json result_json(const RunResult& result, int status, const fs::path& plan) {
   const std::size_t parts = result.plan.assembly.parts.size(), left = result.plan.remaining.size();
-  const char* words = status == kComplete      ? "complete"
-                      : status == kInterrupted ? "interrupted"
-                      : status == kPartial     ? (result.plan.status == PlanStatus::forced ? "forced" : "partial")
-                                               : "error";
+  const std::string words = status == kInterrupted    ? "interrupted"
+                            : status == kPluginFailed ? "error"
+                                                      : result_word(result.plan);
   nlohmann::ordered_json out = {{"status", words},
                                 {"parts", parts},
                                 {"steps", result.plan.disassembly.size()},
@@ -57,7 +60,7 @@ nlohmann::ordered_json result_json(const RunResult& result, const Assembly& asse
                                 {"removed", parts - left},
                                 {"left", left},
                                 {"excluded", result.plan.assembly.excluded.size()},
-                                {"unusable", unusable_parts(assembly)},
+                                {"unusable", unusable_parts(result.plan)},
                                 {"unsolved", result.plan.unsolved.size()},
                                 {"assembly", std::string(to_string(result.plan.assembly_status))},
                                 {"counters", counters_json(result)},

@@ -11,13 +11,14 @@
 
 namespace dismantle::app {
 
-/// The exit status. `constrained`: the outcome decides whether everything that the constraints allow was done.
-int status_of(const RunResult& result, const Assembly& assembly, bool one_part, bool constrained,
-              const RunContext& context);
+/// The exit status.
+int status_of(const RunResult& result, const RunContext& context);
 
 /// The object for Console::result().
-nlohmann::ordered_json result_json(const RunResult& result, const Assembly& assembly, int status,
-                                   const std::filesystem::path& plan);
+nlohmann::ordered_json result_json(const RunResult& result, int status, const std::filesystem::path& plan);
+
+/// Names of parts that could not be used, without those that the configuration excludes.
+std::vector<std::string> unusable_parts(const Plan& plan);
 
 /// Times and search effort; `verbose` adds the planners' own counters.
 std::string effort_text(const RunResult& result, bool verbose);

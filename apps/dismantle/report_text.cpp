@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "dismantle/plan_io/explain.h"
+#include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/text_columns.h"
 
 namespace dismantle {
@@ -40,11 +41,8 @@ std::string check_text(const Plan& plan, const PlanCheck& check) {
                        text::counted(check.certificates, "proof"), check.certificates == 1 ? "holds" : "hold",
                        check.certificates - check.checked_by_prover, check.checked_by_prover,
                        check.checked_by_prover == 1 ? "its own prover" : "their own provers");
-  out += fmt::format(
-      "The plan is valid, penetration <= {}, and {}.\n", length_text(plan, check.max_penetration / scale),
-      check.complete                      ? "complete"
-      : plan.status == PlanStatus::forced ? "forced: all parts are apart, some by steps that cut into other parts"
-                                          : "partial: some parts are still together");
+  out += fmt::format("The plan is valid, penetration <= {}, and {}.\n",
+                     length_text(plan, check.max_penetration / scale), result_text(plan));
   return out;
 }
 

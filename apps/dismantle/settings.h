@@ -6,14 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/host/config.h"
-#include "dismantle/console.h"
-#include "dismantle/importer.h"
 #include "dismantle/assembly.h"
-#include "dismantle/preparation/prepare.h"
-#include "dismantle/preparation/read_input.h"
+#include "dismantle/console.h"
+#include "dismantle/host/config.h"
 #include "dismantle/host/registry.h"
 #include "dismantle/run_context.h"
+#include "dismantle/session/session.h"
 
 namespace dismantle::app {
 
@@ -39,17 +37,14 @@ class ConfigFlags {
 
 /// Warns of each plugin file that cannot be used.
 void warn_of_problems(const Registry& registry, Console& console);
+/// The same, and of keys of the configuration that should be written otherwise.
+void warn_of_problems(const Session& session, Console& console);
 
-/// A context with threads, deadline and cancellation by signals, whose messages go to `console`.
-RunContext context_of(const RunSettings& settings, Console& console);
+/// A context of the session that signals cancel and whose messages go to `console`.
+RunContext context_of(const Session& session, Console& console);
 
-/// Reads and prepares `input`. Warnings go to the context's log. `part`: a part that must exist, else InputError before
-/// preparation begins; empty: none.
-Assembly load_assembly(const std::string& input, const RunConfig& config, const Registry& registry, RunContext& context,
-                       PrepareReport& report, const std::string& part = {});
-
-/// Names of parts that could not be used, without those that the configuration excludes.
-std::vector<std::string> unusable_parts(const Assembly& assembly);
+/// A session that reads plans. Warnings about plugins go to `console`.
+Session reader(Console& console);
 
 /// Creates the folder if needed and checks that files can be written there, before any work is done.
 /// @throws Error naming the folder.

@@ -8,12 +8,12 @@
 #include "dismantle/command.h"
 #include "dismantle/crash_handler.h"
 #include "dismantle/errors.h"
-#include "dismantle/loaded_plan.h"
-#include "dismantle/plan_file.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/plan_report.h"
+#include "dismantle/settings.h"
+#include "dismantle/stopped.h"
 
 namespace dismantle::app {
 namespace {
@@ -52,9 +52,9 @@ nlohmann::ordered_json GiveUp::save(const std::string& why) {
   RunResult result;
   result.plan = saver_->latest();
   blame(result.plan, "the run was ended: " + why);
-  const auto files = write_results(result, *assembly_, folder_, console_);
+  const auto files = write_all(result, *assembly_, folder_, console_);
   console_.text(fmt::format("{}wrote what was done to {}\n", summary_text(result.plan), folder_.string()));
-  auto json = result_json(result, *assembly_, kPluginFailed, folder_ / "plan.json");
+  auto json = result_json(result, kPluginFailed, folder_ / "plan.json");
   json["message"] = why;
   return json;
 }
@@ -82,16 +82,17 @@ int finish_for(const IsolatedEnd& end, const RunNotes& notes, const ConsoleOptio
   nlohmann::ordered_json json = {{"status", "error"}};
   Assembly assembly;
   try {
-    Registry registry(built_in_plugin_folder());  // without the plugin that may have crashed
-    RunContext context = context_for_reading(registry, console);
-    assembly = load_plan(file.string(), "", registry, context).assembly;
-    write_results(result, assembly, file.parent_path(), console);
+    // Without the plugin that may have crashed.
+    const Session session = Session::reader(std::make_shared<Registry>(built_in_plugin_folder()));
+    RunContext context = context_of(session, console);
+    assembly = stoppable(context, [&] { return session.load_plan(file, "", context).assembly; });
+    write_all(result, assembly, file.parent_path(), console);
   } catch (const Error& e) {
     console.warning(fmt::format("plan.json is there, the animation and the page are not: {}", e.what()));
   }
   console.end_progress();
   console.text(fmt::format("{}wrote what was done to {}\n", summary_text(result.plan), file.parent_path().string()));
-  json = result_json(result, assembly, kPluginFailed, file);
+  json = result_json(result, kPluginFailed, file);
   json["message"] = why;
   console.result(json);
   return kPluginFailed;

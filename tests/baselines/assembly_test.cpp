@@ -3,13 +3,11 @@
 
 #include <algorithm>
 
-#include "dismantle/engine/run.h"
 #include "dismantle/errors.h"
-#include "dismantle/host/config.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/samples.h"
+#include "dismantle/session/session.h"
 #include "dismantle/testing/fake_planning.h"
-#include "dismantle/verification/check_plan.h"
 
 namespace dismantle {
 namespace {
@@ -23,32 +21,15 @@ struct Planned {
 };
 
 Planned plan(const std::string& sample, const ParamSet& parameters, Settings set = {}, unsigned threads = 1) {
-  Registry registry;
-  set.insert(set.end(), {"simulator.type=fcl", "path_planner.type=mv_t_rrt"});
+  set.insert(set.end(), {"simulator.type=fcl", "path_planner.type=mv_t_rrt", "run.path_timeout=0", "run.force=off"});
   if (std::none_of(set.begin(), set.end(), [](const std::string& s) { return s.starts_with("run.path_steps="); }))
     set.push_back("run.path_steps=100000");
-  const RunConfig config = load_config({{}, set, {}}, registry);
+  const Session session({{}, set, {}});
   RunContext context;
   context.threads = threads;
-  PrepareReport report;
-  Planned out;
-  out.assembly = prepare_assembly(samples::make(sample, parameters), sample, "", config.assembly, context, report);
-  PlanningSetup setup;
-  setup.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.parameters);
-  setup.path_planner = [&] { return registry.create<PathPlanner>("mv_t_rrt", config.path_planner.parameters); };
-  setup.sequence_planner =
-      registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.parameters);
-  setup.path_planner_id = "mv_t_rrt";
-  setup.transfer_planner = [&] {
-    return registry.create<TransferPlanner>(config.transfer_planner.type, config.transfer_planner.parameters);
-  };
-  setup.transfer_planner_id = config.transfer_planner.type;
-  RunOptions options;
-  options.path_timeout = 0;
-  options.path_steps = static_cast<std::uint64_t>(config.run.path_steps);
-  options.layout = config.layout;
-  out.run = run(out.assembly, setup, options, context);
-  return out;
+  const LoadedAssembly loaded =
+      session.load(InputParts{samples::make(sample, parameters), "", {}}, sample, context);
+  return {*loaded.assembly, session.plan(loaded, context)};
 }
 
 void expect_valid(const Plan& plan, const Assembly& assembly) {
@@ -152,8 +133,7 @@ TEST(AssemblySteps, NamesOfUnknownPartsAreErrors) {
 TEST(AssemblySteps, PosesOfTheWrongFormAreErrors) {
   for (const char* poses :
        {"[1, 2]", "{lid: [1, 2]}", "{lid: 3}", "{lid: [0, 0, 0, 2, 0, 0, 0]}", "{lid: [0, 0, 0, a, 0, 0, 0]}"}) {
-    Registry registry;
-    EXPECT_THROW(load_config({{}, {std::string("layout.poses=") + poses}, {}}, registry), ConfigError) << poses;
+    EXPECT_THROW(Session({{}, {std::string("layout.poses=") + poses}, {}}), ConfigError) << poses;
   }
 }
 

@@ -4,20 +4,20 @@
 
 #include <algorithm>
 
-#include "dismantle/engine/run.h"
 #include "dismantle/errors.h"
-#include "dismantle/host/config.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/samples.h"
+#include "dismantle/session/session.h"
 
 namespace dismantle {
 namespace {
 
 using Settings = std::vector<std::string>;
 
-RunConfig config_of(const std::string& planner, const std::string& simulator, Settings set, Registry& registry) {
-  set.insert(set.end(), {"simulator.type=" + simulator, "path_planner.type=" + planner});
-  return load_config({{}, set, {}}, registry);
+Session session_of(const std::string& planner, const std::string& simulator, Settings set) {
+  set.insert(set.end(), {"simulator.type=" + simulator, "path_planner.type=" + planner, "run.path_timeout=0",
+                         "run.force=off", "layout.enabled=false"});
+  return Session({{}, set, {}});
 }
 
 /// The simulator that a planner is meant for.
@@ -25,27 +25,10 @@ std::string home_of(const std::string& planner) { return planner == "bk_rrt" ? "
 
 RunResult plan(const std::string& sample, const ParamSet& parameters, const std::string& planner, const Settings& set,
                unsigned threads = 1) {
-  Registry registry;
-  const RunConfig config = config_of(planner, home_of(planner), set, registry);
+  const Session session = session_of(planner, home_of(planner), set);
   RunContext context;
   context.threads = threads;
-  PrepareReport report;
-  const Assembly assembly =
-      prepare_assembly(samples::make(sample, parameters), sample, "", config.assembly, context, report);
-  PlanningSetup setup;
-  setup.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.parameters);
-  setup.path_planner = [&] { return registry.create<PathPlanner>(planner, config.path_planner.parameters); };
-  setup.sequence_planner =
-      registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.parameters);
-  setup.path_planner_id = planner;
-  for (const PluginChoice& choice : config.provers)
-    setup.provers.push_back({choice.type, registry.create<ImmobilityProver>(choice.type, choice.parameters)});
-  RunOptions options;
-  options.path_timeout = 0;
-  options.path_steps = static_cast<std::uint64_t>(config.run.path_steps);
-  options.seed = static_cast<std::uint64_t>(config.run.seed);
-  context.rng = Rng(options.seed);
-  return run(assembly, setup, options, context);
+  return session.plan(session.load(InputParts{samples::make(sample, parameters), "", {}}, sample, context), context);
 }
 
 /// Blocked parts shall not cost a test much.
@@ -146,9 +129,8 @@ INSTANTIATE_TEST_SUITE_P(Baselines, EachButRoadmaps,
 /// Found before anything runs, with the place in the file.
 TEST(Baselines, DynamicsWithFclIsAConfigurationError) {
   for (const std::string planner : {"bfs", "bk_rrt"}) {
-    Registry registry;
     try {
-      config_of(planner, "fcl", {}, registry);
+      session_of(planner, "fcl", {});
       ADD_FAILURE() << planner << " was accepted";
     } catch (const ConfigError& e) {
       EXPECT_NE(std::string(e.what()).find("needs a simulator with dynamics, which 'fcl' does not have"),
@@ -160,10 +142,8 @@ TEST(Baselines, DynamicsWithFclIsAConfigurationError) {
 
 TEST(Baselines, GeometricPlannersTakeAnySimulatorWithDistance) {
   for (const std::string planner : {"rrt", "t_rrt", "mv_t_rrt"})
-    for (const std::string simulator : {"fcl", "sdf_penalty"}) {
-      Registry registry;
-      EXPECT_NO_THROW(config_of(planner, simulator, {}, registry)) << planner << " on " << simulator;
-    }
+    for (const std::string simulator : {"fcl", "sdf_penalty"})
+      EXPECT_NO_THROW(session_of(planner, simulator, {})) << planner << " on " << simulator;
 }
 
 /// A mating vector that no axis comes near to leads straight out.

@@ -111,7 +111,8 @@ class Files(BadInput):
         self.run_program("plan", "in", *QUICK, "-o", "out", "-q", status=1)
         plan = json.loads(self.read("out", "plan.json"))
         self.assertEqual([e["name"] for e in plan["assembly"]["excluded"]], ["a", "d"])
-        self.run_program("verify", "out/plan.json", "-q", status=0)
+        verified = self.run_program("verify", "out/plan.json", "--format", "json", status=1)
+        self.assertEqual(self.result_of(verified)["status"], "partial", "as plan says")
         # What the user leaves out is no defect.
         self.run_program("plan", "in", *QUICK, "-o", "out", "-q", "--set", "constraints.ignore=[a, d]", status=0)
 

@@ -58,14 +58,16 @@ class View(CliTest):
 
 
 class WithoutViewer(CliTest):
-    """The program where there is no template beside it."""
+    """The program with a library where there is no template beside it."""
 
     def test_plan_says_once_that_there_is_no_page_and_view_fails(self):
         os.mkdir(self.path("bin"))
         program = self.path("bin", "dismantle")
         shutil.copy(PROGRAM, program)
-        libraries = os.path.join(os.path.dirname(PROGRAM), "..", "lib")
-        env = {"LD_LIBRARY_PATH": os.path.abspath(libraries)}
+        libraries = os.path.abspath(os.path.join(os.path.dirname(PROGRAM), "..", "lib"))
+        os.mkdir(self.path("lib"))
+        shutil.copy(os.path.join(libraries, "libdismantle_session.so.0"), self.path("lib"))
+        env = {"LD_LIBRARY_PATH": self.path("lib") + os.pathsep + libraries}
         self.run_program("sample", "peg_in_hole", "-o", "peg", status=0)
         done = self.run_program("plan", "peg", *QUICK, "-o", "out", program=program, env=env, status=0)
         self.assertEqual(done.stderr.count("index.html was not written"), 1)

@@ -54,9 +54,9 @@ def verify(plan, assembly=None, tolerance=None):
     """Checks a plan against the original triangles, independently of its planner; returns a Verification.
 
     assembly: an Assembly, the path of the input, or None: the input that the plan names. The parts are prepared anew.
-    tolerance: penetration above the initial overlap that is tolerated, assembly units; None: that of the plan, at most 0.01.
+    tolerance: penetration above the initial overlap that is tolerated, assembly units; None: that of the plan, at most the largest one of the plan format.
     """
-    return _core._verify(plan, assembly, min(plan.tolerance, 0.01) if tolerance is None else float(tolerance))
+    return _core._verify(plan, assembly, None if tolerance is None else float(tolerance))
 
 
 def plugins(kind=None):

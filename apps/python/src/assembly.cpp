@@ -7,15 +7,11 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "arrays.h"
 #include "bindings.h"
 #include "dismantle/errors.h"
-#include "dismantle/host/planning_setup.h"
 #include "dismantle/host/suggest.h"
-#include "dismantle/preparation/prepare.h"
-#include "dismantle/preparation/read_input.h"
 #include "dismantle/samples.h"
 #include "interruptible.h"
 #include "overlap.h"
@@ -38,52 +34,11 @@ Array in_input_units(const Mesh& mesh, const Normalization& frame) {
   return array_of(points);
 }
 
-/// Removes the parts that constraints.ignore names from `parts`.
-std::vector<ExcludedPart> take_ignored(const RunConfig& config, std::vector<RawPart>& parts, const std::string& input) {
-  std::vector<std::string> names;
-  for (const auto& raw : parts) names.push_back(raw.name);
-  check_constraint_names(config, names, input);
-  const auto& ignore = config.constraints.ignore;
-  const auto ignored = [&](const RawPart& raw) {
-    return std::find(ignore.begin(), ignore.end(), raw.name) != ignore.end();
-  };
-  std::vector<ExcludedPart> out;
-  for (const auto& raw : parts)
-    if (ignored(raw)) out.push_back({raw.name, "the configuration says to ignore it (constraints.ignore)", true});
-  std::erase_if(parts, ignored);
-  return out;
-}
-
-LoadedAssembly prepared(std::vector<RawPart> parts, const std::string& source, const std::string& sha256,
-                        const RunConfig& config, ImportParams import_params, RunContext& context) {
-  const std::vector<ExcludedPart> ignored = take_ignored(config, parts, source);
-  PrepareReport report;
-  auto assembly =
-      std::make_shared<Assembly>(prepare_assembly(std::move(parts), source, sha256, config.assembly, context, report));
-  assembly->import_params = std::move(import_params);
-  declare_overlaps(config.constraints, *assembly);
-  assembly->excluded.insert(assembly->excluded.end(), ignored.begin(), ignored.end());
-  return {std::move(assembly),
-          nullptr,
-          config.sections.at("assembly"),
-          config.constraints.flexible,
-          config.constraints.overlap,
-          std::move(report.flexible)};
-}
-
-LoadedAssembly load(const std::string& path, const std::string& file, const std::vector<std::string>& overrides) {
+HeldAssembly load(const std::string& path, const std::string& file, const std::vector<std::string>& overrides) {
   const CancelToken cancel;
   return run_interruptible(cancel, py::none(), OnInterrupt::raise, [&] {
-    const auto registry = make_registry();
-    const RunConfig config = config_of(file, overrides, *registry);
-    RunContext context = make_context(cancel, config.run.threads, config.run.timeout);
-    ReadOptions options;
-    options.max_triangles = config.assembly.max_triangles;
-    const ImportParams params = import_params_of(config, *registry);
-    InputParts input = read_input(path, importers_of(*registry, params), options, context);
-    for (const auto& warning : input.warnings) context.log(LogLevel::warning, warning);
-    for (const auto& note : input.notes) context.log(LogLevel::info, note);
-    return prepared(std::move(input.parts), path, input.sha256, config, params, context);
+    const Session session = make_session(file, overrides);
+    return HeldAssembly{session.load(path, make_context(session, cancel))};
   });
 }
 
@@ -101,23 +56,21 @@ std::string hash_of(const std::vector<RawPart>& parts) {
   return py::cast<std::string>(hash.attr("hexdigest")());
 }
 
-LoadedAssembly from_parts(std::vector<RawPart> raw, const std::string& source, const std::string& file,
+HeldAssembly from_parts(std::vector<RawPart> raw, const std::string& source, const std::string& file,
                           const std::vector<std::string>& overrides) {
   std::vector<std::string> changed;
   make_names_unique(raw, changed);
   const std::string hash = hash_of(raw);
   const CancelToken cancel;
-  LoadedAssembly loaded = run_interruptible(cancel, py::none(), OnInterrupt::raise, [&] {
-    const auto registry = make_registry();
-    const RunConfig config = config_of(file, overrides, *registry);
-    RunContext context = make_context(cancel, config.run.threads, config.run.timeout);
-    return prepared(raw, source, hash, config, {}, context);
+  HeldAssembly loaded = run_interruptible(cancel, py::none(), OnInterrupt::raise, [&] {
+    const Session session = make_session(file, overrides);
+    return HeldAssembly{session.load(InputParts{raw, hash, {}}, source, make_context(session, cancel))};
   });
   loaded.raw = std::make_shared<const std::vector<RawPart>>(std::move(raw));
   return loaded;
 }
 
-LoadedAssembly from_meshes(const py::dict& meshes, const std::string& unit, const std::string& file,
+HeldAssembly from_meshes(const py::dict& meshes, const std::string& unit, const std::string& file,
                            const std::vector<std::string>& overrides) {
   std::vector<RawPart> raw;
   for (const auto& [key, value] : meshes) {
@@ -132,7 +85,7 @@ LoadedAssembly from_meshes(const py::dict& meshes, const std::string& unit, cons
   return from_parts(std::move(raw), "<python>", file, overrides);
 }
 
-LoadedAssembly from_sample(const std::string& name, const py::dict& values, const std::string& file,
+HeldAssembly from_sample(const std::string& name, const py::dict& values, const std::string& file,
                            const std::vector<std::string>& overrides) {
   const samples::Sample* sample = samples::find(name);
   if (sample == nullptr) {
@@ -153,7 +106,7 @@ LoadedAssembly from_sample(const std::string& name, const py::dict& values, cons
   return from_parts(samples::make(name, params), "<sample " + name + ">", file, overrides);
 }
 
-void write_parts(const LoadedAssembly& self, const std::filesystem::path& folder) {
+void write_parts(const HeldAssembly& self, const std::filesystem::path& folder) {
   std::vector<RawPart> parts;
   for (const Part& part : self.assembly->parts) {
     RawPart& raw = parts.emplace_back();
@@ -164,7 +117,7 @@ void write_parts(const LoadedAssembly& self, const std::filesystem::path& folder
   samples::write(self.raw != nullptr ? *self.raw : parts, folder);
 }
 
-PartOf part_of(const LoadedAssembly& self, const py::object& key) {
+PartOf part_of(const HeldAssembly& self, const py::object& key) {
   const auto ids = part_ids(*self.assembly, key);
   if (ids.size() != 1) throw py::value_error("expected the name or the number of one part");
   return {self.assembly, ids.front()};
@@ -246,7 +199,7 @@ std::vector<PartId> part_ids(const Assembly& assembly, const py::handle& parts) 
 
 void bind_assembly(py::module_& m) {
   bind_part(m);
-  py::class_<LoadedAssembly>(
+  py::class_<HeldAssembly>(
       m, "Assembly",
       "Parts in assembled position. Immutable.\n\nTwo frames: `input` coordinates and units are those of the files; "
       "assembly units are what simulators and planners use: internal = scale * (input - center), the largest edge of "
@@ -259,7 +212,7 @@ void bind_assembly(py::module_& m) {
            "Writes each part as FOLDER/NAME.obj, input units, for the command line and other programs.")
       .def_property_readonly(
           "parts",
-          [](const LoadedAssembly& self) {
+          [](const HeldAssembly& self) {
             std::vector<PartOf> parts;
             for (const Part& part : self.assembly->parts) parts.push_back({self.assembly, part.id});
             return parts;
@@ -267,17 +220,17 @@ void bind_assembly(py::module_& m) {
           "List of Part, by number.")
       .def_property_readonly(
           "names",
-          [](const LoadedAssembly& self) {
+          [](const HeldAssembly& self) {
             std::vector<std::string> names;
             for (const Part& part : self.assembly->parts) names.push_back(part.name);
             return names;
           },
           "Names of the parts, by number.")
-      .def("__len__", [](const LoadedAssembly& self) { return self.assembly->parts.size(); })
+      .def("__len__", [](const HeldAssembly& self) { return self.assembly->parts.size(); })
       .def("__getitem__", &part_of, py::arg("part"), "The part of that name or number.")
       .def_property_readonly(
           "excluded",
-          [](const LoadedAssembly& self) {
+          [](const HeldAssembly& self) {
             std::vector<std::pair<std::string, std::string>> out;
             for (const auto& e : self.assembly->excluded) out.emplace_back(e.name, e.reason);
             return out;
@@ -285,32 +238,32 @@ void bind_assembly(py::module_& m) {
           "Parts of the input that are not in the assembly: list of (name, reason).")
       .def_property_readonly(
           "overlaps",
-          [](const LoadedAssembly& self) {
+          [](const HeldAssembly& self) {
             std::vector<HeldOverlap> out;
             for (const auto& o : self.assembly->overlaps) out.push_back(overlap_of(*self.assembly, o));
             return out;
           },
           "List of Overlap: pairs that are in each other when assembled, or that the user declared.")
       .def_property_readonly(
-          "scale", [](const LoadedAssembly& self) { return self.assembly->normalization.scale; },
+          "scale", [](const HeldAssembly& self) { return self.assembly->normalization.scale; },
           "Assembly units per input unit; > 0.")
       .def_property_readonly(
-          "center", [](const LoadedAssembly& self) { return array_of(self.assembly->normalization.center); },
+          "center", [](const HeldAssembly& self) { return array_of(self.assembly->normalization.center); },
           "(3,): origin of the assembly frame, in input coordinates.")
       .def_property_readonly(
           "box",
-          [](const LoadedAssembly& self) {
+          [](const HeldAssembly& self) {
             return array_of(std::vector{self.assembly->input_box.lo, self.assembly->input_box.hi});
           },
           "(2, 3): lowest and highest corner of the bounding box, input coordinates.")
       .def_property_readonly(
-          "unit", [](const LoadedAssembly& self) { return self.assembly->unit; },
+          "unit", [](const HeldAssembly& self) { return self.assembly->unit; },
           "Input unit ('mm', 'inch', 'm'); empty when the files do not say.")
       .def_property_readonly(
-          "source", [](const LoadedAssembly& self) { return self.assembly->source; }, "What it was loaded from.")
+          "source", [](const HeldAssembly& self) { return self.assembly->source; }, "What it was loaded from.")
       .def(
           "poses_to_input",
-          [](const LoadedAssembly& self, const Array& poses) {
+          [](const HeldAssembly& self, const Array& poses) {
             std::vector<Pose> out = poses_of(poses, "poses");
             for (Pose& p : out) p = self.assembly->normalization.pose_to_input(p);
             return array_of(out);
@@ -318,13 +271,13 @@ void bind_assembly(py::module_& m) {
           py::arg("poses"), "(N, 7) poses in assembly units to poses that act on input coordinates, (N, 7).")
       .def(
           "poses_to_internal",
-          [](const LoadedAssembly& self, const Array& poses) {
+          [](const HeldAssembly& self, const Array& poses) {
             std::vector<Pose> out = poses_of(poses, "poses");
             for (Pose& p : out) p = self.assembly->normalization.pose_to_internal(p);
             return array_of(out);
           },
           py::arg("poses"), "(N, 7) poses that act on input coordinates to poses in assembly units, (N, 7).")
-      .def("__repr__", [](const LoadedAssembly& self) {
+      .def("__repr__", [](const HeldAssembly& self) {
         return fmt::format("<Assembly '{}', {} parts>", self.assembly->source, self.assembly->parts.size());
       });
   m.def(

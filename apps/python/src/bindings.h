@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "dismantle/assembly.h"
-#include "dismantle/host/config.h"
 #include "dismantle/host/registry.h"
 #include "dismantle/importer.h"
 #include "dismantle/plan.h"
 #include "dismantle/run_context.h"
+#include "dismantle/session/session.h"
 
 namespace dismantle::python {
 
@@ -36,13 +36,8 @@ void bind_step_check(py::module_& m);
 void bind_results(py::module_& m);
 
 /// The assembly that Python holds.
-struct LoadedAssembly {
-  std::shared_ptr<const Assembly> assembly;
-  std::shared_ptr<const std::vector<RawPart>> raw;  ///< parts of an assembly made in Python; null: read from files
-  ParamSet options;                                 ///< section `assembly:` of its preparation
-  std::vector<std::string> flexible{};              ///< `constraints.flexible` of its preparation
-  std::vector<NamedOverlap> declared{};             ///< `constraints.overlap` of its preparation
-  std::vector<FlexiblePart> recognised{};           ///< parts recognised as flexible by shape and contact
+struct HeldAssembly : LoadedAssembly {
+  std::shared_ptr<const std::vector<RawPart>> raw{};  ///< parts of an assembly made in Python; null: read from files
 };
 
 /// The plan that Python holds. `info`: facts about the run that made it, by name; empty when it was read.
@@ -55,14 +50,14 @@ struct HeldPlan {
 /// written in Python. Does not need the interpreter's lock.
 std::shared_ptr<Registry> make_registry();
 
-/// `file`: empty for none. `overrides`: KEY=VALUE each. Warnings go to Python's logger.
-RunConfig config_of(const std::string& file, const std::vector<std::string>& overrides, Registry& registry);
+/// `file`: empty for none. `overrides`: KEY=VALUE each. As make_registry().
+Session make_session(const std::string& file, const std::vector<std::string>& overrides);
 
 /// Sends a log message to Python's logger "dismantle". May be called from any thread.
 void log_to_python(LogLevel level, std::string_view text);
 
-/// A context for one job. The executor belongs to the calling thread. `threads` 0: all cores; `timeout`: s, 0: none.
-RunContext make_context(const CancelToken& cancel, unsigned threads = 0, double timeout = 0);
+/// A context for one job of the calling thread.
+RunContext make_context(const Session& session, const CancelToken& cancel);
 
 /// Parts by name or number: a name, a number, or a sequence of these. @throws ValueError.
 std::vector<PartId> part_ids(const Assembly& assembly, const py::handle& parts);

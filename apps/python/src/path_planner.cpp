@@ -35,7 +35,7 @@ class QueryView {
     return *query_;
   }
   const Assembly& assembly() const { return *assembly_; }
-  LoadedAssembly loaded() const { return {assembly_, nullptr, {}}; }
+  HeldAssembly loaded() const { return {{assembly_, {}}}; }
   std::uint64_t spent() const { return work_->steps + work_->state_checks; }
   bool should_stop() const {
     return query().budget.max_steps > 0 && spent() >= query().budget.max_steps ? true : context_->should_stop();

@@ -18,16 +18,6 @@
 namespace dismantle::python {
 namespace {
 
-HeldPlan read(const std::filesystem::path& file) { return {plan_from_json(read_file(file), file.string()), {}}; }
-
-const char* word_of(PlanStatus status) {
-  return status == PlanStatus::complete ? "complete" : status == PlanStatus::forced ? "forced" : "partial";
-}
-
-const char* word_of(AssemblyStatus status) {
-  return status == AssemblyStatus::complete ? "complete" : status == AssemblyStatus::partial ? "partial" : "reversed";
-}
-
 std::vector<unsigned> forced_numbers(const Plan& plan) {
   std::vector<unsigned> numbers;
   for (const auto& step : plan.disassembly)
@@ -47,7 +37,7 @@ void bind_plan(py::module_& m) {
   bind_verdicts(m);
   py::class_<HeldPlan>(m, "Plan", "An order in which the parts come out, with a path for each (docs/plan-format.md).")
       .def_static(
-          "read", [](const std::filesystem::path& file) { return read(file); }, py::arg("path"),
+          "read", [](const std::filesystem::path& file) { return HeldPlan{read_plan(file), {}}; }, py::arg("path"),
           "Reads a plan.json. Raises InputError with the place of what is wrong.")
       .def_static(
           "from_json",
@@ -64,7 +54,7 @@ void bind_plan(py::module_& m) {
           py::arg("path"), "Writes plan.json; replaces the file as a whole.")
       .def(
           "write_glb",
-          [](const HeldPlan& self, const std::filesystem::path& file, const LoadedAssembly& loaded) {
+          [](const HeldPlan& self, const std::filesystem::path& file, const HeldAssembly& loaded) {
             const auto bytes = to_glb(self.plan, *loaded.assembly);
             write_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
           },
@@ -88,17 +78,17 @@ void bind_plan(py::module_& m) {
           "List of Step: how it is put together, from the layout on.")
       .def_property_readonly(
           "complete", [](const HeldPlan& self) { return self.plan.status == PlanStatus::complete; },
-          "True when every group is down to one part, by verified steps alone.")
+          "True when what was asked for is done, by verified steps alone: every group is down to one part or to parts that "
+          "are kept together, or the part that was asked for is out.")
       .def_property_readonly(
-          "status", [](const HeldPlan& self) { return word_of(self.plan.status); },
-          "'complete': every group is down to one part, by verified steps alone; 'forced': the same, and some steps "
-          "are "
-          "forced; 'partial': some parts are still together.")
+          "status", [](const HeldPlan& self) { return to_string(self.plan.status); },
+          "'complete': what was asked for is done, by verified steps alone; 'forced': the same, and some steps are "
+          "forced; 'partial': parts are still together that were to be separated.")
       .def_property_readonly(
           "forced", [](const HeldPlan& self) { return forced_numbers(self.plan); },
           "Numbers of the steps that are forced: not valid motions, see Step.forced.")
       .def_property_readonly(
-          "assembly_status", [](const HeldPlan& self) { return word_of(self.plan.assembly_status); },
+          "assembly_status", [](const HeldPlan& self) { return to_string(self.plan.assembly_status); },
           "What assembly_steps are. 'complete': from the layout on; 'partial': some parts have no path from the "
           "layout; "
           "'reversed': the disassembly backwards, no layout was asked for.")
@@ -166,7 +156,7 @@ void bind_plan(py::module_& m) {
                       }))
       .def("__repr__", [](const HeldPlan& self) {
         return fmt::format("<Plan of '{}': {}, {} steps, {} parts>", self.plan.assembly.source,
-                           word_of(self.plan.status), self.plan.disassembly.size(), self.plan.assembly.parts.size());
+                           to_string(self.plan.status), self.plan.disassembly.size(), self.plan.assembly.parts.size());
       });
   m.def(
       "interpolate",

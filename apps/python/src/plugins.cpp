@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <mutex>
-#include <thread>
 
 #include "bindings.h"
 #include "dismantle/errors.h"
-#include "dismantle/executor.h"
 #include "dismantle/host/describe.h"
 
 namespace dismantle::python {
@@ -57,6 +55,15 @@ std::shared_ptr<Registry> make_registry() {
   return registry;
 }
 
+Session make_session(const std::string& file, const std::vector<std::string>& overrides) {
+  ConfigSource source;
+  if (!file.empty()) source.file = file;
+  source.set = overrides;
+  Session session(source, make_registry());
+  for (const auto& warning : session.config().warnings) log_to_python(LogLevel::warning, warning);
+  return session;
+}
+
 void log_to_python(LogLevel level, std::string_view text) {
   if (Py_IsInitialized() == 0) return;
   py::gil_scoped_acquire lock;
@@ -72,21 +79,9 @@ void log_to_python(LogLevel level, std::string_view text) {
   }
 }
 
-RunConfig config_of(const std::string& file, const std::vector<std::string>& overrides, Registry& registry) {
-  ConfigSource source;
-  if (!file.empty()) source.file = file;
-  source.set = overrides;
-  RunConfig config = load_config(source, registry);
-  for (const auto& warning : config.warnings) log_to_python(LogLevel::warning, warning);
-  return config;
-}
-
-RunContext make_context(const CancelToken& cancel, unsigned threads, double timeout) {
-  RunContext context;
+RunContext make_context(const Session& session, const CancelToken& cancel) {
+  RunContext context = session.context();
   context.cancel = cancel;
-  if (timeout > 0) context.deadline = Deadline::after_seconds(timeout);
-  context.threads = threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
-  if (context.threads > 1) context.executor = std::make_shared<Executor>(context.threads);
   context.on_log = log_to_python;
   return context;
 }

@@ -1,22 +1,9 @@
 // run() and verify(), which release the interpreter's lock.
-#include "dismantle/engine/run.h"
-
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <thread>
-
 #include "bindings.h"
 #include "dismantle/errors.h"
-#include "dismantle/executor.h"
-#include "dismantle/host/planning_setup.h"
-#include "dismantle/preparation/assembly_of_plan.h"
-#include "dismantle/preparation/flexible_parts.h"
-#include "dismantle/preparation/read_input.h"
-#include "dismantle/verification/check_plan.h"
 #include "held.h"
 #include "interruptible.h"
 
@@ -55,35 +42,7 @@ class ProgressCallback {
   CancelToken cancel_;
 };
 
-/// The assembly with the overlaps that the configuration declares. @throws Error when the assembly was prepared for
-/// another configuration.
-std::shared_ptr<const Assembly> assembly_for(const LoadedAssembly& loaded, const RunConfig& config) {
-  const NamedConstraints& named = config.constraints;
-  std::vector<std::string> names;
-  for (const Part& part : loaded.assembly->parts) names.push_back(part.name);
-  std::string differ;
-  const auto add = [&](const std::string& what) { differ += (differ.empty() ? "" : ", ") + what; };
-  for (const auto& [name, value] : config.sections.at("assembly"))
-    if (const auto known = loaded.options.find(name); known == loaded.options.end() || known->second != value)
-      add("assembly." + name);
-  for (const std::string& name : named.ignore)
-    if (std::find(names.begin(), names.end(), name) != names.end()) add(fmt::format("constraints.ignore ('{}')", name));
-  const bool alike = named.flexible == loaded.flexible && named.overlap == loaded.declared;
-  if (!alike && !(loaded.flexible.empty() && loaded.declared.empty())) add("constraints.flexible, constraints.overlap");
-  if (!differ.empty())
-    throw Error(
-        fmt::format("the configuration prepares the assembly differently from the one that was given ({}): give the "
-                    "same configuration to Assembly.load(), or the path of the input to run()",
-                    differ));
-  for (const auto& part : loaded.assembly->excluded) names.push_back(part.name);
-  check_constraint_names(config, names, loaded.assembly->source);
-  if (alike) return loaded.assembly;
-  auto declared = std::make_shared<Assembly>(*loaded.assembly);  // meshes are shared
-  declare_overlaps(named, *declared);
-  return declared;
-}
-
-HeldPlan plan(const LoadedAssembly& loaded, const std::string& file, const std::vector<std::string>& overrides,
+HeldPlan plan(const HeldAssembly& loaded, const std::string& file, const std::vector<std::string>& overrides,
               const std::string& part, const py::object& on_progress, const py::object& should_stop) {
   const CancelToken cancel;
   std::optional<ProgressCallback> progress;
@@ -92,19 +51,10 @@ HeldPlan plan(const LoadedAssembly& loaded, const std::string& file, const std::
   const RunResult result = run_interruptible(
       cancel, should_stop, OnInterrupt::keep_results,
       [&] {
-        const auto registry = make_registry();
-        const RunConfig config = config_of(file, overrides, *registry);
-        const auto assembly = assembly_for(loaded, config);
-        const PlanningSetup setup = planning_setup_of(config, *registry);
-        RunContext context = make_context(cancel, config.run.threads, config.run.timeout);
+        const Session session = make_session(file, overrides);
+        RunContext context = make_context(session, cancel);
         if (progress) context.on_progress = *progress;
-        RunOptions options = run_options_of(config, part);
-        options.constraints = constraints_of(config.constraints, *assembly);
-        options.flexible = with_declared(loaded.recognised, config.constraints.flexible, *assembly);
-        if (!options.constraints.empty() && part.empty() && !setup.sequence_planner->traits().keeps_constraints)
-          throw Error(fmt::format("there are constraints, and sequence planner '{}' does not keep any; 'blocking' does",
-                                  config.sequence_planner.type));
-        return run(*assembly, setup, options, context);
+        return session.plan(loaded, context, {.part = part});
       },
       &interrupted);
   if (progress) progress->rethrow();
@@ -125,14 +75,14 @@ HeldPlan plan(const LoadedAssembly& loaded, const std::string& file, const std::
   return held;
 }
 
-/// `given`: None, a path, or an Assembly.
-PlanCheck verify(const HeldPlan& held, const py::object& given, double tolerance) {
-  if (!(tolerance > 0)) throw py::value_error("tolerance: expected a number > 0, assembly units");
+/// `given`: None, a path, or an Assembly. `tolerance`: assembly units; none: that of the plan.
+PlanCheck verify(const HeldPlan& held, const py::object& given, std::optional<double> tolerance) {
+  if (tolerance && !(*tolerance > 0)) throw py::value_error("tolerance: expected a number > 0, assembly units");
   std::string path = held.plan.assembly.source;
   std::shared_ptr<const std::vector<RawPart>> raw;
   std::string sha256;
-  if (py::isinstance<LoadedAssembly>(given)) {
-    const auto& loaded = py::cast<const LoadedAssembly&>(given);
+  if (py::isinstance<HeldAssembly>(given)) {
+    const auto& loaded = py::cast<const HeldAssembly&>(given);
     path = loaded.assembly->source;
     raw = loaded.raw;
     sha256 = loaded.assembly->sha256;
@@ -143,17 +93,12 @@ PlanCheck verify(const HeldPlan& held, const py::object& given, double tolerance
     throw Error("the plan is for an assembly that was made in Python: give it as second argument");
   const CancelToken cancel;
   return run_interruptible(cancel, py::none(), OnInterrupt::raise, [&] {
-    const auto registry = make_registry();
-    RunContext context = make_context(cancel);
-    ReadOptions read;
-    read.max_triangles = std::numeric_limits<std::int64_t>::max();
-    InputParts input = raw != nullptr
-                           ? InputParts{*raw, sha256, {}}
-                           : read_input(path, importers_of(*registry, held.plan.assembly.import_params), read, context);
-    const Assembly assembly = assembly_of_plan(held.plan, std::move(input), path, context);
-    PlanCheck check = check_plan(held.plan, assembly, {tolerance}, context, prover_of_kind(*registry));
-    judge_again(check, held.plan, assembly, check_of_type(*registry), context);
-    return check;
+    const Session session = Session::reader(make_registry());
+    const RunContext context = make_context(session, cancel);
+    const Assembly assembly = raw != nullptr
+                                  ? session.assembly_of(held.plan, InputParts{*raw, sha256, {}}, path, context)
+                                  : session.assembly_of(held.plan, path, context);
+    return session.verify(held.plan, assembly, context, {.tolerance = tolerance});
   });
 }
 
@@ -166,7 +111,7 @@ void bind_run(py::module_& m) {
                     "as deep as it "
                     "says, and every certificate holds.")
       .def_readonly("complete", &PlanCheck::complete,
-                    "True when valid, no step is forced, and every group is down to one part.")
+                    "True when valid, no step is forced, and what was asked for is done.")
       .def_readonly(
           "forced", &PlanCheck::forced,
           "Number of steps that are forced: not valid motions, but what the plan says of their depth is true.")
@@ -200,8 +145,7 @@ void bind_run(py::module_& m) {
   m.def("_verify", &verify);
   m.def("_resolved", [](const std::string& file, const std::vector<std::string>& overrides, const std::string& folder) {
     py::gil_scoped_release release;
-    const auto registry = make_registry();
-    return resolved_yaml(config_of(file, overrides, *registry), *registry, folder);
+    return make_session(file, overrides).resolved(folder);
   });
 }
 

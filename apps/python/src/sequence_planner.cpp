@@ -206,7 +206,7 @@ class PythonSequencePlanner final : public SequencePlanner {
   SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override {
     py::gil_scoped_acquire lock;
-    const LoadedAssembly loaded{std::make_shared<const Assembly>(query.assembly), nullptr, {}};
+    const HeldAssembly loaded{{std::make_shared<const Assembly>(query.assembly), {}}};
     const auto view = std::make_shared<SequenceView>(*loaded.assembly, query, oracle, observer, context);
     const auto run = std::make_shared<RunView>(context);
     SequenceResult result;

@@ -43,7 +43,7 @@ class HeldSimulator {
   const std::string& id() const { return id_; }
   Capabilities capabilities() const { return simulator_->capabilities(); }
 
-  std::shared_ptr<HeldWorld> world(const LoadedAssembly& loaded, const py::object& moving, const py::object& fixed,
+  std::shared_ptr<HeldWorld> world(const HeldAssembly& loaded, const py::object& moving, const py::object& fixed,
                                    const std::string& space, double tolerance) {
     if (!(tolerance > 0)) throw py::value_error("tolerance: expected a number > 0, assembly units");
     const MotionSpace motion = motion_space(space);
@@ -91,7 +91,7 @@ class HeldSimulator {
                                                   const CancelToken& cancel) {
     const std::lock_guard lock(mutex_);
     if (prepared_ != nullptr && assembly_ == assembly && tolerance_ == tolerance) return prepared_;
-    RunContext context = make_context(cancel);
+    RunContext context = make_context(Session::reader(registry_), cancel);
     prepared_ = simulator_->prepare(*assembly, tolerance, context);
     assembly_ = assembly;
     tolerance_ = tolerance;
@@ -123,7 +123,7 @@ void bind_simulator(py::module_& m) {
       .def_property_readonly("id", &HeldSimulator::id, "Id of the plugin.")
       .def_property_readonly("capabilities", &HeldSimulator::capabilities, "Capabilities.")
       .def("world", &HeldSimulator::world, py::arg("assembly"), py::arg("moving"), py::arg("fixed") = py::none(),
-           py::arg("space") = "rigid", py::arg("tolerance") = 0.01,
+           py::arg("space") = "rigid", py::arg("tolerance") = kDefaultTolerance,
            "Makes a World. moving, fixed: names or numbers of parts; fixed None: all that do not move. space: 'rigid' "
            "or "
            "'translation' (orientation is locked). tolerance: penetration that the verifier lets pass, assembly units, "

@@ -125,7 +125,7 @@ void bind_step_check(py::module_& m) {
       .def_property_readonly(
           "assembly",
           [](const HeldQuestion& q) {
-            LoadedAssembly loaded;
+            HeldAssembly loaded;
             loaded.assembly = q.assembly;
             return loaded;
           },

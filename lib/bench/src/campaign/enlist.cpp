@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "dismantle/errors.h"
-#include "dismantle/host/planning_setup.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/preparation/sha256.h"

@@ -7,7 +7,6 @@
 
 #include "dismantle/bench/suite.h"
 #include "dismantle/host/config_bind.h"
-#include "dismantle/host/planning_setup.h"
 #include "dismantle/host/suggest.h"
 #include "dismantle/plan_io/read_file.h"
 #include "suite/assemblies.h"

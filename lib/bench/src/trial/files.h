@@ -1,15 +1,13 @@
 /// Requests and inputs of a trial.
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
 #include "dismantle/bench/trial.h"
 #include "dismantle/bench/trial_row.h"
-#include "dismantle/importer.h"
-#include "dismantle/run_context.h"
+#include "dismantle/preparation/read_input.h"
 
 namespace dismantle::bench {
 
@@ -23,9 +21,9 @@ void write_result(const TrialResult& result, const std::filesystem::path& folder
 void read_result(const std::filesystem::path& folder, TrialResult& result);
 
 /// The path of the trial's assembly. A generated one (a sample, a rotated one, one with a `translation.json`) is made
-/// once and kept; several processes may do so concurrently. @throws InputError.
-std::filesystem::path input_of(const TrialRequest& request, const std::vector<std::shared_ptr<Importer>>& importers,
-                               const RunContext& context);
+/// once and kept; several processes may do so concurrently. `read` gives the parts of an input. @throws InputError.
+std::filesystem::path input_of(const TrialRequest& request,
+                               const std::function<InputParts(const std::filesystem::path&)>& read);
 
 /// True for a folder that holds a `translation.json`. In this layout of the paper's data, the vector named NAME moves
 /// part NAME.obj to its assembled position.

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "dismantle/errors.h"
-#include "dismantle/preparation/read_input.h"
 #include "dismantle/samples.h"
 #include "trial/files.h"
 
@@ -75,15 +74,14 @@ bool has_offsets(const fs::path& input) {
   return fs::is_regular_file(offsets_file(input), error);
 }
 
-fs::path input_of(const TrialRequest& request, const std::vector<std::shared_ptr<Importer>>& importers,
-                  const RunContext& context) {
+fs::path input_of(const TrialRequest& request, const std::function<InputParts(const fs::path&)>& read) {
   const bool offsets = request.sample.empty() && has_offsets(request.input);
   if (request.sample.empty() && !offsets && !request.rotate) return request.input;
   const fs::path folder = request.inputs / request.input_name;
   if (fs::is_directory(folder)) return folder;
   std::vector<RawPart> parts;
   if (request.sample.empty()) {
-    parts = read_input(request.input, importers, {}, context).parts;
+    parts = read(request.input).parts;
     std::erase_if(parts, [](const RawPart& part) { return part.by_meaning; });  // no parts of the assembly
     name_files(parts);
   } else {

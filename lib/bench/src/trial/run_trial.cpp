@@ -8,16 +8,10 @@
 #include <sstream>
 
 #include "dismantle/errors.h"
-#include "dismantle/host/planning_setup.h"
-#include "dismantle/plan.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/read_file.h"
 #include "dismantle/plan_io/write_file.h"
-#include "dismantle/preparation/assembly_of_plan.h"
-#include "dismantle/preparation/flexible_parts.h"
-#include "dismantle/preparation/prepare.h"
-#include "dismantle/preparation/read_input.h"
-#include "dismantle/verification/check_plan.h"
+#include "dismantle/session/session.h"
 #include "trial/files.h"
 
 namespace dismantle::bench {
@@ -55,8 +49,8 @@ RunContext context_of_trial() {
 /// Records each step when it is found, so that a killed trial keeps its progress.
 class Recorder {
  public:
-  Recorder(const fs::path& folder, const Assembly& assembly, const RunOptions& options)
-      : folder_(folder), assembly_(assembly), options_(options), progress_(TrialFiles(folder).progress) {}
+  Recorder(const fs::path& folder, const Session& session, const LoadedAssembly& loaded, const std::string& part)
+      : folder_(folder), session_(session), loaded_(loaded), part_(part), progress_(TrialFiles(folder).progress) {}
 
   void operator()(const Disassembly& so_far, const DisassemblyStep& /*newest*/) {
     const std::vector<std::vector<PartId>>& groups = so_far.groups();
@@ -65,15 +59,16 @@ class Recorder {
       if (g == 0 || groups[g].size() > 1) out -= groups[g].size();
     progress_ << fmt::format("{:.6f} {}\n", seconds_since(begin_), out) << std::flush;
     if (saved_ && seconds_since(last_) < 1) return;
-    write_file(TrialFiles(folder_).plan, to_json(plan_of(so_far, assembly_, options_)));
+    write_file(TrialFiles(folder_).plan, to_json(session_.plan_of(so_far, loaded_, {.part = part_})));
     saved_ = true;
     last_ = Clock::now();
   }
 
  private:
   fs::path folder_;
-  const Assembly& assembly_;
-  const RunOptions& options_;
+  const Session& session_;
+  const LoadedAssembly& loaded_;
+  const std::string part_;
   std::ofstream progress_;
   Clock::time_point begin_ = Clock::now(), last_;
   bool saved_ = false;
@@ -93,41 +88,21 @@ void plan_trial(const fs::path& folder) {
   std::set_new_handler(end_without_memory);
   const Clock::time_point start = Clock::now();
   const TrialRequest request = read_request(folder);
-  Registry registry;
-  RunConfig config = load_config({request.config, {}, {}}, registry);
-  config.run.force = ForceWhen::off;  // forced steps would hide what a planner does not find
+  // Forced steps would hide what a planner does not find.
+  const Session session({request.config, {"run.force=off"}, {}});
   RunContext context = context_of_trial();
-  context.threads = std::max(1u, config.run.threads);
-  const ImportParams import_params = import_params_of(config, registry);
-  const auto importers = importers_of(registry, import_params);
-  const fs::path input = input_of(request, importers, context);
-  ReadOptions read;
-  read.max_triangles = config.assembly.max_triangles;
-  InputParts parts = read_input(input, importers, read, context);
-  std::vector<std::string> names;
-  for (const auto& part : parts.parts) names.push_back(part.name);
-  check_constraint_names(config, names, input.string());
-  std::erase_if(parts.parts,
-                [&](const auto& part) { return std::ranges::count(config.constraints.ignore, part.name) > 0; });
-  PrepareReport report;
-  Assembly assembly =
-      prepare_assembly(std::move(parts.parts), input.string(), parts.sha256, config.assembly, context, report);
-  assembly.import_params = import_params;
-  declare_overlaps(config.constraints, assembly);
-  report.flexible = with_declared(std::move(report.flexible), config.constraints.flexible, assembly);
-  const PlanningSetup setup = planning_setup_of(config, registry);
+  context.threads = std::max(1u, session.config().run.threads);
+  const fs::path input = input_of(request, [&](const fs::path& file) { return session.read(file, context); });
+  const LoadedAssembly loaded = session.load(input, context);
+  const Assembly& assembly = *loaded.assembly;
+  session.check({.part = request.part});  // loads the planners: part of loading
   const double load_seconds = seconds_since(start);
 
   const Clock::time_point begin = Clock::now();
-  if (config.run.timeout > 0) context.deadline = Deadline::after_seconds(config.run.timeout);
-  RunOptions options = run_options_of(config, request.part);
-  options.flexible = report.flexible;
-  options.constraints = constraints_of(config.constraints, assembly);
-  if (!options.constraints.empty() && request.part.empty() && !setup.sequence_planner->traits().keeps_constraints)
-    throw Error(fmt::format("the suite has constraints, and sequence planner '{}' does not keep any",
-                            config.sequence_planner.type));
-  Recorder recorder(folder, assembly, options);
-  const RunResult result = run(assembly, setup, options, context, std::ref(recorder));
+  if (const double timeout = session.config().run.timeout; timeout > 0)
+    context.deadline = Deadline::after_seconds(timeout);
+  Recorder recorder(folder, session, loaded, request.part);
+  const RunResult result = session.plan(loaded, context, {request.part, std::ref(recorder)});
   const double solve_seconds = seconds_since(begin);
   write_file(TrialFiles(folder).plan, to_json(result.plan));
   fmt::print(stderr, "{}", reasons_of(result.plan));
@@ -162,22 +137,14 @@ void plan_trial(const fs::path& folder) {
 void verify_trial(const fs::path& folder) {
   std::set_new_handler(end_without_memory);
   const TrialRequest request = read_request(folder);
-  const fs::path file = TrialFiles(folder).plan;
-  const Plan plan = plan_from_json(read_file(file), file.string());
-  Registry registry;
-  registry.scan();
-  RunContext context = context_of_trial();
-  const auto importers = importers_of(registry, plan.assembly.import_params);
-  const fs::path input = input_of(request, importers, context);
-  ReadOptions read;
-  read.max_triangles = std::numeric_limits<std::int64_t>::max();
-  const Assembly assembly =
-      assembly_of_plan(plan, read_input(input, importers, read, context), input.string(), context);
+  const Session session = Session::reader();
+  const RunContext context = context_of_trial();
+  const Plan plan = read_plan(TrialFiles(folder).plan);
+  const fs::path input = input_of(request, [&](const fs::path& file) { return session.read(file, plan, context); });
+  const Assembly assembly = session.assembly_of(plan, input, context);
   // The tolerance is stated for an assembly of size 10, but a planner's configuration may scale to another size.
   const double size = assembly.normalization.scale * assembly.input_box.size().maxCoeff() / 10;
-  VerifyOptions options;
-  options.max_penetration = request.max_penetration * size;
-  const PlanCheck check = check_plan(plan, assembly, options, context, prover_of_kind(registry));
+  const PlanCheck check = session.verify(plan, assembly, context, {.tolerance = request.max_penetration * size});
   auto problems = nlohmann::json::array();
   for (const auto& p : check.problems) problems.push_back(fmt::format("step {}: {}", p.step, p.message));
   const nlohmann::json json = {{"valid", check.valid},

@@ -4,7 +4,6 @@
 
 #include "config/yaml_writer.h"
 #include "dismantle/host/config.h"
-#include "dismantle/host/planning_setup.h"
 #include "dismantle/preparation/sha256.h"
 
 namespace dismantle {
@@ -110,6 +109,14 @@ std::string relative_to(const fs::path& path, const fs::path& folder) {
 }
 
 }  // namespace
+
+ImportParams import_params_of(const RunConfig& config, const Registry& registry) {
+  ImportParams out;
+  for (const auto& [id, values] : config.importers)
+    for (const auto& spec : registry.find(PluginKind::importer, id).type.params)
+      if (const auto& value = values.at(spec.name); value != spec.fallback) out[id][spec.name] = value;
+  return out;
+}
 
 std::string resolved_yaml(const RunConfig& config, const Registry& registry, const fs::path& folder) {
   Writer writer(config, registry);

@@ -56,7 +56,7 @@ struct Suite {
   std::vector<SuiteVariant> variants;
   std::vector<std::int64_t> seeds;
   Limits limits;
-  double max_penetration = 0.01;   ///< assembly units; the verifier's tolerance, overrides planners' configurations
+  double max_penetration = kDefaultTolerance;  ///< assembly units; the verifier's tolerance, overrides planners' configurations
   std::vector<std::string> notes;  ///< optional entries that were skipped, and why
 };
 

@@ -20,7 +20,7 @@ struct TrialRequest {
   std::string part;               ///< empty: the whole assembly
   std::filesystem::path inputs;   ///< folder for generated assemblies: samples, rotated ones, translated ones
   std::string input_name;         ///< name of a generated assembly in `inputs`
-  double max_penetration = 0.01;  ///< the verifier's tolerance, for an assembly of size 10
+  double max_penetration = 0;     ///< the verifier's tolerance, for an assembly of size 10
 };
 
 /// The files in the folder of a trial.

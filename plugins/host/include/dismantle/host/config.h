@@ -105,10 +105,10 @@ struct ConfigOption {
 
 /// The sources of a configuration: a file and overrides.
 struct ConfigSource {
-  std::optional<std::filesystem::path> file;  ///< none: defaults only
-  std::vector<std::string> set;               ///< "path_planner.goal_bias=0.1"; the value is YAML
-  std::vector<ConfigOption> options;          ///< values are taken literally
-  std::vector<ConfigMember> sections{};       ///< of another file, such as a suite; messages name their places in it
+  std::optional<std::filesystem::path> file{};  ///< none: defaults only
+  std::vector<std::string> set{};               ///< "path_planner.goal_bias=0.1"; the value is YAML
+  std::vector<ConfigOption> options{};          ///< values are taken literally
+  std::vector<ConfigMember> sections{};         ///< of another file, such as a suite; messages name their places in it
 };
 
 /// Reads, merges and checks a configuration. Adds its search paths to `registry` and scans it.
@@ -119,6 +119,9 @@ DISMANTLE_API RunConfig load_config(const ConfigSource& source, Registry& regist
 /// every unknown name, its place and the nearest known name.
 DISMANTLE_API void check_constraint_names(const RunConfig& config, const std::vector<std::string>& parts,
                                           const std::string& input);
+
+/// The parameters in `config.importers` that differ from the defaults.
+DISMANTLE_API ImportParams import_params_of(const RunConfig& config, const Registry& registry);
 
 /// The configuration as a file that gives the same RunConfig when it is loaded again. Comments state the origin of
 /// every value, and version and hash of the plugins. `folder`: folder of the file to write; search paths are relative

@@ -1,4 +1,4 @@
-#include "dismantle/host/planning_setup.h"
+#include "planning_setup.h"
 
 #include <algorithm>
 #include <string>
@@ -61,58 +61,16 @@ PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registr
   return out;
 }
 
-ProverOfKind prover_of_kind(const Registry& registry) {
-  return [&registry](const std::string& kind) -> std::shared_ptr<const ImmobilityProver> {
-    if (registry.lookup(PluginKind::immobility_prover, kind) == nullptr) return nullptr;
-    return registry.create<ImmobilityProver>(kind);
-  };
-}
-
-/// A plan file may store a number without a fraction as an integer.
-static ParamSet with_numbers(const std::vector<ParamSpec>& specs, ParamSet values) {
-  for (const auto& spec : specs)
-    if (const auto it = values.find(spec.name); it != values.end() && spec.type == ParamType::number)
-      if (const auto* integer = std::get_if<std::int64_t>(&it->second)) it->second = static_cast<double>(*integer);
-  return values;
-}
-
-CheckOfType check_of_type(const Registry& registry) {
-  return [&registry](const std::string& type, const ParamSet& parameters) -> std::shared_ptr<const StepCheck> {
-    const std::vector<ParamSpec>& specs = registry.find(PluginKind::step_check, type).type.params;
-    return registry.create<StepCheck>(type, with_numbers(specs, parameters));
-  };
-}
-
-RunOptions run_options_of(const RunConfig& config, const std::string& part) {
+RunOptions run_options_of(const RunConfig& config) {
   RunOptions out;
   out.path_timeout = config.run.path_timeout;
   out.path_steps = static_cast<std::uint64_t>(config.run.path_steps);
-  out.only_part = part;
   out.verify = config.verify;
   out.named_overlap = config.named_overlap;
   out.proofs = config.proofs;
   out.layout = config.layout;
   out.seed = static_cast<std::uint64_t>(config.run.seed);
   out.force = config.run.force;
-  return out;
-}
-
-std::vector<std::shared_ptr<Importer>> importers_of(const Registry& registry, const ImportParams& params) {
-  for (const auto& [id, values] : params) registry.find(PluginKind::importer, id);
-  std::vector<std::shared_ptr<Importer>> out;
-  for (const RegisteredType* type : registry.types(PluginKind::importer)) {
-    const auto given = params.find(type->type.id);
-    const ParamSet values = with_numbers(type->type.params, given == params.end() ? ParamSet{} : given->second);
-    out.push_back(registry.create<Importer>(type->type.id, values));
-  }
-  return out;
-}
-
-ImportParams import_params_of(const RunConfig& config, const Registry& registry) {
-  ImportParams out;
-  for (const auto& [id, values] : config.importers)
-    for (const auto& spec : registry.find(PluginKind::importer, id).type.params)
-      if (const auto& value = values.at(spec.name); value != spec.fallback) out[id][spec.name] = value;
   return out;
 }
 

@@ -1,8 +1,7 @@
-#include "dismantle/settings_beside.h"
-
 #include "dismantle/host/config_node.h"
+#include "dismantle/session/session.h"
 
-namespace dismantle::app {
+namespace dismantle {
 namespace {
 
 void flatten(const ConfigNode& node, const std::string& key, ExplainSettings& out) {
@@ -24,4 +23,4 @@ ExplainSettings settings_beside(const std::filesystem::path& plan) {
   return out;
 }
 
-}  // namespace dismantle::app
+}  // namespace dismantle

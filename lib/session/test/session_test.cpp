@@ -1,0 +1,185 @@
+// Laws: a plan file is read as its input was read for the plan; sessions do not influence each other; a job ends when
+// its context says so; what cannot be planned is refused before any work.
+#include "dismantle/session/session.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <future>
+
+#include "dismantle/errors.h"
+#include "dismantle/plan_io/plan_file.h"
+#include "dismantle/plan_io/write_file.h"
+#include "dismantle/plugin.h"
+#include "dismantle/samples.h"
+
+namespace dismantle {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ScaledParams {
+  double scale = 1;
+  static void describe(Schema<ScaledParams>& s) {
+    s.add("scale", &ScaledParams::scale, {.unit = "1", .min = 0, .min_open = true, .doc = "Factor on all lengths."});
+  }
+};
+
+/// Reads a file that holds the name of a sample.
+class ScaledSample final : public Importer {
+ public:
+  explicit ScaledSample(const ScaledParams& params) : params_(params) {}
+  std::vector<std::string> extensions() const override { return {"sample"}; }
+  std::vector<RawPart> read(const fs::path& file, const RunContext&) override {
+    std::ifstream in(file);
+    std::string name;
+    in >> name;
+    std::vector<RawPart> parts = samples::make(name);
+    for (RawPart& part : parts)
+      for (auto& v : part.mesh.vertices) v *= params_.scale;
+    return parts;
+  }
+
+ private:
+  ScaledParams params_;
+};
+
+class SessionTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "session.XXXXXX").string();
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+    Registrar registrar;
+    registrar.add<Importer, ScaledSample, ScaledParams>("test.scaled", "Samples by name.", {.source = "test"});
+    PluginFile file;
+    file.path = __FILE__;
+    file.id = "test.scaled";
+    file.version = "1";
+    add_program_type(file, registrar.types().front());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path write(const std::string& name, const std::string& text) const {
+    write_file(folder_ / name, text);
+    return folder_ / name;
+  }
+
+  fs::path folder_;
+};
+
+const std::vector<std::string> kOneThread = {"run.threads=1"};
+
+LoadedAssembly sample(const Session& session, const std::string& name) {
+  return session.load(InputParts{samples::make(name), "", {}}, name);
+}
+
+/// Everything but the times.
+std::string without_times(Plan plan) {
+  for (auto* steps : {&plan.disassembly, &plan.assembly_steps})
+    for (PlanStep& step : *steps) step.seconds = 0;
+  for (PlanUnsolved& u : plan.unsolved) u.seconds = 0;
+  return to_json(plan);
+}
+
+template <class Problem>
+std::string message_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Problem& e) {
+    return e.what();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {};
+}
+
+TEST_F(SessionTest, APlanIsReadWithTheParametersOfItsImporters) {
+  const fs::path input = write("peg.sample", "peg_in_hole");
+  const fs::path config = write("config.yaml", "schema: 1\nimporters:\n  test.scaled:\n    scale: 3\n");
+  const Session session({config, kOneThread, {}});
+  const LoadedAssembly loaded = session.load(input);
+  const RunResult result = session.plan(loaded);
+  ASSERT_EQ(result.outcome, Outcome::solved);
+  const fs::path file = write("plan.json", to_json(result.plan));
+
+  const Session plain({{}, kOneThread, {}});
+  const double size = plain.load(input).assembly->input_box.size().maxCoeff();
+  for (const Session& reading : {Session::reader(), plain}) {  // neither has the parameter in its configuration
+    const LoadedPlan saved = reading.load_plan(file);
+    EXPECT_NEAR(saved.assembly.input_box.size().maxCoeff(), 3 * size, 1e-9 * size);
+    const PlanCheck check = reading.verify(saved.plan, saved.assembly);
+    EXPECT_TRUE(check.valid);
+    EXPECT_TRUE(check.complete);
+  }
+}
+
+TEST_F(SessionTest, SessionsAtTheSameTimePlanAsTheyDoAlone) {
+  const auto plan = [](const std::string& name, const std::string& planner) {
+    const Session session({{}, {"run.threads=1", "sequence_planner.type=" + planner, "run.seed=7"}, {}});
+    return without_times(session.plan(sample(session, name)).plan);
+  };
+  const std::string peg = plan("peg_in_hole", "blocking"), slot = plan("l_slot", "progressive");
+  auto first = std::async(std::launch::async, plan, "peg_in_hole", "blocking");
+  auto second = std::async(std::launch::async, plan, "l_slot", "progressive");
+  EXPECT_EQ(first.get(), peg);
+  EXPECT_EQ(second.get(), slot);
+}
+
+TEST_F(SessionTest, OneSessionServesTwoThreads) {
+  const Session session({{}, kOneThread, {}});
+  const auto plan = [&](const std::string& name) {
+    return without_times(session.plan(sample(session, name)).plan);
+  };
+  const std::string peg = plan("peg_in_hole"), slot = plan("l_slot");
+  auto first = std::async(std::launch::async, plan, "peg_in_hole");
+  auto second = std::async(std::launch::async, plan, "l_slot");
+  EXPECT_EQ(first.get(), peg);
+  EXPECT_EQ(second.get(), slot);
+}
+
+TEST_F(SessionTest, AJobShowsItsStepsAndStopsWhenItIsCancelled) {
+  const Session session({{}, kOneThread, {}});
+  const LoadedAssembly loaded = sample(session, "machine");
+  RunContext job = session.context();
+  std::size_t events = 0, steps = 0;
+  job.on_progress = [&](const ProgressEvent&) { ++events; };
+  const RunResult result = session.plan(loaded, job, {.on_step = [&](const Disassembly& so_far, const DisassemblyStep&) {
+                                          steps = so_far.steps().size();
+                                          if (steps == 2) job.cancel.cancel();
+                                        }});
+  EXPECT_EQ(result.outcome, Outcome::cancelled);
+  EXPECT_EQ(result.plan.disassembly.size(), steps);
+  EXPECT_LT(result.plan.disassembly.size(), loaded.assembly->parts.size() - 1);
+  EXPECT_GT(events, 0u);
+  // Another job of the session is not concerned.
+  EXPECT_EQ(session.plan(sample(session, "peg_in_hole")).outcome, Outcome::solved);
+}
+
+TEST_F(SessionTest, AnAssemblyOfOtherSettingsIsRefused) {
+  const Session coarse({{}, {"assembly.subdivide=2", "run.threads=1"}, {}}), fine({{}, kOneThread, {}});
+  const LoadedAssembly loaded = sample(coarse, "peg_in_hole");
+  EXPECT_NE(message_of<Error>([&] { fine.plan(loaded); }).find("assembly.subdivide"), std::string::npos);
+}
+
+TEST_F(SessionTest, ConstraintsNeedAPlannerThatKeepsThem) {
+  const fs::path config =
+      write("config.yaml", "schema: 1\nsequence_planner: {type: progressive}\nconstraints: {target: peg}\n");
+  const Session session({config, kOneThread, {}});
+  for (const std::string& text :
+       {message_of<Error>([&] { session.check(); }),
+        message_of<Error>([&] { session.plan(sample(session, "peg_in_hole")); })}) {
+    EXPECT_NE(text.find("'progressive' does not keep any"), std::string::npos) << text;
+    EXPECT_NE(text.find("'blocking'"), std::string::npos) << text;
+  }
+  session.check({.part = "peg"});  // the path of one part has no order
+}
+
+TEST_F(SessionTest, AReaderPlansNothing) {
+  const Session reader = Session::reader();
+  EXPECT_THROW(reader.config(), std::logic_error);
+  EXPECT_THROW(sample(reader, "peg_in_hole"), std::logic_error);
+}
+
+}  // namespace
+}  // namespace dismantle
