@@ -1,5 +1,6 @@
 # Install rules and the exported package. In a project of your own:
-#   find_package(dismantle REQUIRED)   # dismantle::plugin_api, dismantle::plugins, dismantle::testing; dismantle::core and each
+#   find_package(dismantle REQUIRED)   # dismantle::session plans and verifies (docs/use-as-a-library.md);
+#                                      # dismantle::plugin_api, dismantle::plugins, dismantle::testing; dismantle::core and each
 #                                      # library of lib/ but bench: dismantle::geometry, ::verification, ::preparation, ...
 #   dismantle_add_plugin(my_planner SOURCES my_planner.cpp)
 #   dismantle_add_contract_test(my_planner)   # if the tests were built: dismantle::contract_tests is the program
@@ -16,7 +17,7 @@ install(TARGETS dismantle_core ${libraries} dismantle_plugin_api dismantle_plugi
   INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(DIRECTORY core/include/ plugins/sdk/include/ plugins/host/include/ plugins/testing/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
   FILES_MATCHING PATTERN "*.h")
-foreach(library parallel geometry verification preparation plan_io samples engine)
+foreach(library parallel geometry verification preparation plan_io samples engine session)
   install(DIRECTORY lib/${library}/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h")
 endforeach()
 install(EXPORT dismantleTargets NAMESPACE dismantle:: DESTINATION "${DISMANTLE_PACKAGE_DIR}")

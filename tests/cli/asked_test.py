@@ -111,8 +111,8 @@ class ImporterParameters(CliTest):
     def test_a_benchmark(self):
         env = {"DISMANTLE_PLUGIN_PATH": os.pathsep.join(filter(None, (os.environ.get("DISMANTLE_PLUGIN_PATH"), os.environ["BOXES_FOLDER"])))}
         self.write("in.boxes", "base 0 0 0 1 1 1\nlid 0 0 1 1 1 2\n")
-        self.write("config.yaml", "schema: 1\nimporters:\n  test.boxes:\n    scale: 3\n")
-        self.write("suite.yaml", "schema: 1\nassemblies: [{path: in.boxes}]\nplanners: {scaled: {config: config.yaml}}\n"
+        self.write("suite.yaml", "schema: 1\nassemblies: [{path: in.boxes}]\nplanners: {plain: {}}\n"
+                                 "importers: {test.boxes: {scale: 3}}\n"
                                  "limits: {timeout: 60, wall: 300, memory: 2048, path_steps: 2000}\n")
         done = self.run_program("bench", "suite.yaml", "-o", "rows", "--format", "json", status=0, env=env)
         result = json.loads(done.stdout.splitlines()[-1])
