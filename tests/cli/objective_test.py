@@ -5,7 +5,7 @@ from program import CliTest
 
 
 class Objective(CliTest):
-    QUICK = ("--sequence-planner", "ndbg", "--set", "run.force=off", "--set", "immobility.provers=[]", "--set", "layout.enabled=false")
+    QUICK = ("--sequence-planner", "ndbg", "--path-planner", "bfs", "--set", "run.force=off", "--set", "immobility.provers=[]", "--set", "layout.enabled=false")
 
     def setUp(self):
         super().setUp()
