@@ -83,8 +83,10 @@ class ContactScene {
   void set_members(std::vector<Member> moving, std::vector<Member> fixed);
   void update_pair(ContactPair& pair, std::vector<ContactPoint>& out);
   void begin_at_rest(std::vector<ContactPoint>& out);
-  void scan(ContactPair& pair, DirectedContacts& set, std::uint32_t owner, std::uint32_t surface, double margin,
-            double odometer, std::vector<ContactPoint>& out);
+  struct Scan;
+  /// Lists the points of member `owner` near member `surface`.
+  void scan(const ContactPair& pair, DirectedContacts& set, std::uint32_t owner, std::uint32_t surface, double odometer,
+            std::vector<ContactPoint>& out);
   float assembled_depth(const ContactPair& pair, const Member& owner, const Member& surface,
                         const Eigen::Vector3d& point) const;
   void measure_own_depths(const ContactPair& pair, DirectedContacts& set, const Member& owner,
@@ -92,7 +94,7 @@ class ContactScene {
   /// Data of a point before its distance query.
   struct Near {
     bool surely = false;  ///< near for certain: a bound cannot exclude it, and its last closest triangle is known
-    double way = 0;       ///< motion since its last query
+    double moved = 0;     ///< motion since its last query
     const CandidateList* list = nullptr;
   };
   /// A point whose distance has to be measured.
