@@ -25,18 +25,11 @@ std::vector<unsigned> forced_numbers(const Plan& plan) {
   return numbers;
 }
 
-}  // namespace
+using PlanClass = py::class_<HeldPlan>;
 
-void bind_plan(py::module_& m) {
-  auto outcome = py::enum_<Outcome>(m, "Outcome", "How an attempt ended.");
-  for (int k = 0; k <= static_cast<int>(Outcome::crashed); ++k)
-    outcome.value(std::string(to_string(static_cast<Outcome>(k))).c_str(), static_cast<Outcome>(k));
-  bind_overlap(m);
-  bind_step(m);
-  bind_unsolved(m);
-  bind_verdicts(m);
-  py::class_<HeldPlan>(m, "Plan", "An order in which the parts come out, with a path for each (docs/plan-format.md).")
-      .def_static(
+/// Reading and writing, and texts about the plan.
+void bind_plan_texts(PlanClass& plan) {
+  plan.def_static(
           "read", [](const std::filesystem::path& file) { return HeldPlan{read_plan(file), {}}; }, py::arg("path"),
           "Reads a plan.json. Raises InputError with the place of what is wrong.")
       .def_static(
@@ -70,7 +63,20 @@ void bind_plan(py::module_& m) {
           "Raises InputError when there is no such part.")
       .def(
           "summary", [](const HeldPlan& self) { return summary_text(self.plan); }, "What came out, in words.")
-      .def_property_readonly(
+      .def(py::pickle([](const HeldPlan& self) { return py::make_tuple(to_json(self.plan), self.info); },
+                      [](const py::tuple& state) {
+                        return HeldPlan{plan_from_json(py::cast<std::string>(state[0]), "<pickle>"),
+                                        py::cast<std::map<std::string, py::object>>(state[1])};
+                      }))
+      .def("__repr__", [](const HeldPlan& self) {
+        return fmt::format("<Plan of '{}': {}, {} steps, {} parts>", self.plan.assembly.source,
+                           word_of(self.plan.status), self.plan.disassembly.size(), self.plan.assembly.parts.size());
+      });
+}
+
+/// What was planned, and how it ended.
+void bind_plan_steps(PlanClass& plan) {
+  plan.def_property_readonly(
           "steps", [](const HeldPlan& self) { return self.plan.disassembly; },
           "List of Step: how the assembly is taken apart, in order.")
       .def_property_readonly(
@@ -108,8 +114,12 @@ void bind_plan(py::module_& m) {
           "List of Certificate: proofs that parts cannot be separated.")
       .def_property_readonly(
           "objective", [](const HeldPlan& self) { return self.plan.objective; },
-          "Objective: what the steps were judged by, and the sum of all costs.")
-      .def_property_readonly(
+          "Objective: what the steps were judged by, and the sum of all costs.");
+}
+
+/// Parts and facts of the run.
+void bind_plan_facts(PlanClass& plan) {
+  plan.def_property_readonly(
           "removed",
           [](const HeldPlan& self) {
             std::vector<std::string> names;
@@ -148,16 +158,23 @@ void bind_plan(py::module_& m) {
           "info", &HeldPlan::info,
           "dict of facts about the run that made it (outcome, interrupted, attempts, memoised, prepare_seconds, "
           "plan_seconds, proof_seconds, planner_counts, sequence_counts, precedence); empty for a plan that was "
-          "read.")
-      .def(py::pickle([](const HeldPlan& self) { return py::make_tuple(to_json(self.plan), self.info); },
-                      [](const py::tuple& state) {
-                        return HeldPlan{plan_from_json(py::cast<std::string>(state[0]), "<pickle>"),
-                                        py::cast<std::map<std::string, py::object>>(state[1])};
-                      }))
-      .def("__repr__", [](const HeldPlan& self) {
-        return fmt::format("<Plan of '{}': {}, {} steps, {} parts>", self.plan.assembly.source,
-                           to_string(self.plan.status), self.plan.disassembly.size(), self.plan.assembly.parts.size());
-      });
+          "read.");
+}
+
+}  // namespace
+
+void bind_plan(py::module_& m) {
+  auto outcome = py::enum_<Outcome>(m, "Outcome", "How an attempt ended.");
+  for (int k = 0; k <= static_cast<int>(Outcome::crashed); ++k)
+    outcome.value(std::string(to_string(static_cast<Outcome>(k))).c_str(), static_cast<Outcome>(k));
+  bind_overlap(m);
+  bind_step(m);
+  bind_unsolved(m);
+  bind_verdicts(m);
+  PlanClass plan(m, "Plan", "An order in which the parts come out, with a path for each (docs/plan-format.md).");
+  bind_plan_texts(plan);
+  bind_plan_steps(plan);
+  bind_plan_facts(plan);
   m.def(
       "interpolate",
       [](const Array& a, const Array& b, double u) {

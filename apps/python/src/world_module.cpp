@@ -14,9 +14,9 @@ Array rows_of(const ContactList& list, Get get) {
   return array_of(rows);
 }
 
-}  // namespace
+using WorldClass = py::class_<HeldWorld, std::shared_ptr<HeldWorld>>;
 
-void bind_world(py::module_& m) {
+void bind_step_report(py::module_& m) {
   py::class_<StepOutcome>(m, "StepReport", "What World.step() did.")
       .def_property_readonly(
           "steps", [](const StepOutcome& s) { return s.report.steps; }, "Time steps simulated.")
@@ -32,6 +32,9 @@ void bind_world(py::module_& m) {
       .def_property_readonly(
           "poses", [](const StepOutcome& s) { return array_of_path(s.trace, s.bodies); },
           "(T, M, 7): poses along the step, begin excluded, end included.");
+}
+
+void bind_contacts(py::module_& m) {
   py::class_<ContactList>(m, "Contacts", "Contacts of a state, one row each. Assembly units, world axes.")
       .def_property_readonly(
           "points", [](const ContactList& l) { return rows_of(l, [](const Contact& c) { return c.point; }); },
@@ -59,12 +62,11 @@ void bind_world(py::module_& m) {
           },
           "(C, 2) int64: numbers of the moving part and of the other one.")
       .def("__len__", [](const ContactList& l) { return l.contacts.size(); });
-  py::class_<HeldWorld, std::shared_ptr<HeldWorld>>(
-      m, "World",
-      "A scene of a simulator: some parts move, others are fixed, all others are absent. It has a current state. "
-      "Frames: assembly units, world axes, seconds, radians; a pose (7,) is x, y, z, qw, qx, qy, qz and takes the "
-      "part's assembled points to where they are. After reset(), and after a state or poses were set, the same calls "
-      "give the same results to the last bit.")
+}
+
+/// State, and how it moves.
+void bind_motion(WorldClass& world) {
+  world
       .def_property("state", &HeldWorld::state_rows, &HeldWorld::set_state,
                     "(M, 13): pose (7), velocity of the centre (3), angular velocity (3) of each moving part.")
       .def_property(
@@ -81,7 +83,12 @@ void bind_world(py::module_& m) {
            "6) for "
            "several: force (3) and torque about the centre (3); world axes, or those of the parts with in_body_frame. "
            "Needs a "
-           "simulator with `dynamics`.")
+           "simulator with `dynamics`.");
+}
+
+/// Penetration, contacts and separation.
+void bind_queries(WorldClass& world) {
+  world
       .def("penetration", &HeldWorld::penetration, py::arg("poses") = py::none(),
            "Deepest penetration above what was there when assembled, >= 0; assembly units. Of the current state, or "
            "with the "
@@ -109,7 +116,12 @@ void bind_world(py::module_& m) {
           "(3,) of `part`, in its assembled frame, lay inside `other`. Simulators that sample contact add it.")
       .def("allow_overlap_everywhere", &HeldWorld::allow_overlap_everywhere,
            "From now on the depth that a pair overlaps when assembled is allowed everywhere, as the verifier does, not "
-           "only where it was.")
+           "only where it was.");
+}
+
+/// What the world consists of.
+void bind_parts(WorldClass& world) {
+  world
       .def(
           "center", [](HeldWorld& w, std::size_t body) { return array_of(w.world_with_body(body).center(body)); },
           py::arg("body") = 0, "(3,): centre of a moving part in its assembled frame.")
@@ -135,6 +147,22 @@ void bind_world(py::module_& m) {
             return names;
           },
           "Names of the fixed parts.");
+}
+
+}  // namespace
+
+void bind_world(py::module_& m) {
+  bind_step_report(m);
+  bind_contacts(m);
+  WorldClass world(
+      m, "World",
+      "A scene of a simulator: some parts move, others are fixed, all others are absent. It has a current state. "
+      "Frames: assembly units, world axes, seconds, radians; a pose (7,) is x, y, z, qw, qx, qy, qz and takes the "
+      "part's assembled points to where they are. After reset(), and after a state or poses were set, the same calls "
+      "give the same results to the last bit.");
+  bind_motion(world);
+  bind_queries(world);
+  bind_parts(world);
 }
 
 }  // namespace dismantle::python
