@@ -29,7 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PlanOptions {
-  std::string input, folder, part;
+  std::string input, folder, part, resume;
+  std::optional<std::size_t> after;
   bool isolate = false;
   std::int64_t memory = 0;  // MiB, for an isolated run
   ConfigFlags config;
@@ -82,6 +83,13 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
   take_notes(notes, config, context);
 
   const fs::path folder = options.folder.empty() ? default_folder(options.input) : fs::path(options.folder);
+  std::optional<Plan> earlier;
+  if (!options.resume.empty()) {
+    earlier = read_plan(options.resume);
+    std::error_code error;
+    if (fs::equivalent(fs::absolute(options.resume).parent_path(), folder, error))
+      throw Error(fmt::format("{} would be written over: name another folder with -o", options.resume));
+  }
   if (!options.folder.empty()) open_output_folder(folder);
   remove_old_results(folder, options.input);
   GiveUp give_up(config, context, folder, console);
@@ -105,8 +113,9 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
     saver(so_far, newest);
     notes.plan.set(saved);
   };
-  const RunResult result =
-      stoppable(context, [&] { return session.plan(loaded, context, {options.part, on_step}); });
+  const PlanRequest request{options.part, on_step, earlier ? &*earlier : nullptr,
+                            options.after.value_or(Disassembly::kNow)};
+  const RunResult result = stoppable(context, [&] { return session.plan(loaded, context, request); });
   watchdog.reset();  // no plugin runs after this
   const auto files = write_all(result, assembly, folder, console);
   console.end_progress();
@@ -153,6 +162,13 @@ void add_plan(CLI::App& app, Action& action) {
   options->config.add_key(*command, "--simulator", "simulator.type", "ID", "Simulator");
   options->config.add_key(*command, "--path-planner", "path_planner.type", "ID", "Path planner");
   options->config.add_key(*command, "--sequence-planner", "sequence_planner.type", "ID", "Sequence planner");
+  auto* resume = command->add_option("--resume", options->resume,
+                                     "Go on from this plan of the same input; its steps are verified again");
+  resume->option_text("PLAN");
+  command->add_option("--after", options->after, "With --resume: keep only the first K steps of it")
+      ->option_text("K")
+      ->check(CLI::NonNegativeNumber.description(""))
+      ->needs(resume);
   command->add_option("--part", options->part, "Plan just this part's path, all other parts fixed")
       ->option_text("NAME");
   options->config.add_key(*command, "--seed", "run.seed", "N", "Seed");

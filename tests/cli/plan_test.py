@@ -52,6 +52,24 @@ class Plan(CliTest):
         done = self.run_program("plan", "peg_in_hole", *QUICK, "-o", "out", "-q", status=0)
         self.assertEqual((done.stdout, done.stderr), ("", ""))
 
+    def test_a_saved_plan_goes_on_from_any_step(self):
+        self.make("machine", "parts=4")
+        self.run_program("plan", "machine", *QUICK, "-o", "whole", "-q", status=0)
+        whole = re.sub(r'"seconds": [^,]*', "", self.read("whole", "plan.json"))
+        for after in ("0", "2", None):
+            keep = ("--after", after) if after else ()
+            self.run_program("plan", "machine", *QUICK, "-o", "more", "--resume", "whole/plan.json", *keep, "-q", status=0)
+            self.assertEqual(re.sub(r'"seconds": [^,]*', "", self.read("more", "plan.json")), whole)
+        for arguments, message in (
+            (("-o", "whole", "--resume", "whole/plan.json"), "would be written over"),
+            (("-o", "more", "--resume", "whole/plan.json", "--after", "9"), "has 3 steps, 9 cannot be kept"),
+        ):
+            self.assertIn(message, self.run_program("plan", "machine", *QUICK, *arguments, status=2).stderr)
+        self.assertIn("--resume", self.run_program("plan", "machine", "--after", "1", status=2).stderr)
+        self.make("peg_in_hole")
+        other = self.run_program("plan", "peg_in_hole", *QUICK, "-o", "more", "--resume", "whole/plan.json", status=3)
+        self.assertIn("made for other files", other.stderr)
+
     def test_one_part(self):
         self.make("peg_in_hole")
         name = json.loads(self.result("peg_in_hole"))["disassembly"][0]["moves"][0]["part"]

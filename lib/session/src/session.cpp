@@ -190,11 +190,23 @@ RunOptions Session::options_for(const LoadedAssembly& loaded, const Assembly& as
 
 void Session::check(const PlanRequest& request) const { checked_setup(config(), *registry_, request.part); }
 
+/// The steps of an earlier plan that a run goes on from.
+static Disassembly steps_of(const Plan& plan, const Assembly& assembly, const PlanRequest& request) {
+  if (!request.part.empty()) throw Error("a plan of one part does not go on from another plan");
+  if (plan.assembly.sha256 != assembly.sha256)
+    throw InputError(assembly.source, "the plan to go on from was made for other files (their SHA-256 differs)");
+  if (request.resume_steps != Disassembly::kNow && request.resume_steps > plan.disassembly.size())
+    throw Error(fmt::format("the plan to go on from has {} steps, {} cannot be kept", plan.disassembly.size(),
+                            request.resume_steps));
+  return disassembly_of(plan, assembly, request.resume_steps);
+}
+
 RunResult Session::plan(const LoadedAssembly& loaded, const std::optional<RunContext>& given,
                         const PlanRequest& request) const {
   RunContext context = given ? *given : this->context();
   const auto assembly = declared(loaded);
-  const RunOptions options = options_for(loaded, *assembly, request.part);
+  RunOptions options = options_for(loaded, *assembly, request.part);
+  if (request.resume != nullptr) options.resume = steps_of(*request.resume, *assembly, request);
   const PlanningSetup setup = checked_setup(config(), *registry_, request.part);
   return run(*assembly, setup, options, context, request.on_step);
 }

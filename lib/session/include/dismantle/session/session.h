@@ -59,6 +59,9 @@ struct PlanRequest {
   std::string part{};  ///< only the path of this part, all others fixed; empty: the whole assembly
   /// Called after each step, from the thread of plan(). What it throws is logged.
   StepObserver on_step{};
+  /// A plan for the same input to go on from; null: none. Its first `resume_steps` steps are verified again and kept.
+  const Plan* resume = nullptr;
+  std::size_t resume_steps = Disassembly::kNow;
 };
 
 /// A plan file together with its assembly.
