@@ -119,26 +119,29 @@ T tighter(T a, T b) {
 class FunctionSearch final : public PathSearch {
  public:
   FunctionSearch(FunctionPathPlanner& planner, const PathQuery& query, RunContext& context)
-      : planner_(planner), query_(query), context_(context), deadline_(deadline_of(query)) {}
+      : planner_(planner), query_(query), context_(context), deadline_(deadline_of(query.budget)) {}
 
   SearchStatus run(const Budget& portion) override {
     if (over_) return status_of(result_.outcome());
     PathQuery query = query_;
     query.budget.max_steps = tighter(query.budget.max_steps, portion.max_steps);
-    RunContext context = context_;
-    context.deadline = context.deadline.earlier(deadline_);
     query.budget.timeout = tighter(query.budget.timeout, portion.timeout);
-    const bool whole = query.budget.max_steps == query_.budget.max_steps && portion.timeout <= 0;
+    const Deadline whole = context_.deadline.earlier(deadline_), end = deadline_of(portion);
+    RunContext context = context_;
+    context.deadline = whole.earlier(end);
     result_ = planner_.plan(query, context);
-    const bool cut_short = !whole && result_.outcome() == Outcome::timeout && !context.deadline.passed();
+    const bool cancelled = result_.outcome() == Outcome::cancelled;  // some report a deadline like this, too
+    const bool stopped = result_.outcome() == Outcome::timeout || (cancelled && !context.cancel.cancelled());
+    const bool by_portion = query.budget.max_steps != query_.budget.max_steps || end.passed();
+    const bool cut_short = stopped && by_portion && !whole.passed();
     over_ = !cut_short;
     return cut_short ? SearchStatus::paused : status_of(result_.outcome());
   }
   PathResult result() override { return result_; }
 
  private:
-  static Deadline deadline_of(const PathQuery& query) {
-    return query.budget.timeout > 0 ? Deadline::after_seconds(query.budget.timeout) : Deadline();
+  static Deadline deadline_of(const Budget& budget) {
+    return budget.timeout > 0 ? Deadline::after_seconds(budget.timeout) : Deadline();
   }
 
   FunctionPathPlanner& planner_;

@@ -35,6 +35,34 @@ void drop_nonsense(PathResult& result, const Attempt& attempt) {
   if (!finite || result.best_pose.size() != attempt.moving.size()) result.best_pose.clear();
 }
 
+/// A search in portions, with a time limit that does not cover what is done between them.
+class TimedSearch {
+ public:
+  /// `limit`: seconds of all portions together; 0 = none.
+  TimedSearch(PathSearch& search, double limit) : search_(search), limit_(limit) {}
+
+  /// Runs it for `max_steps`, 0 = to its end. False: it is over, or its time is up.
+  bool goes_on(std::uint64_t max_steps) {
+    const Clock::time_point begin = Clock::now();
+    status_ = search_.run({.max_steps = max_steps, .timeout = limit_ > 0 ? limit_ - spent_ : 0});
+    spent_ += seconds_since(begin);
+    return status_ == SearchStatus::paused && !time_is_up();
+  }
+
+  PathResult result() {
+    PathResult result = search_.result();
+    if (status_ == SearchStatus::paused && time_is_up()) result.fail(Outcome::timeout);
+    return result;
+  }
+
+ private:
+  bool time_is_up() const { return limit_ > 0 && spent_ >= limit_; }
+
+  PathSearch& search_;
+  double limit_, spent_ = 0;
+  SearchStatus status_ = SearchStatus::paused;
+};
+
 }  // namespace
 
 /// Path checker of one attempt.
@@ -192,15 +220,16 @@ PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, con
                         simulator_,
                         prepared_,
                         {attempt.moving, attempt.fixed},
-                        {attempt.max_depth, path_steps_, path_timeout_},
+                        {attempt.max_depth, path_steps_, pauses.empty() ? path_timeout_ : 0},
                         verifier_.options().max_penetration,
                         checker,
                         attempt.goal,
                         resumed != nullptr ? resumed->result.state.get() : nullptr};
   const std::unique_ptr<PathSearch> search = planner.start(query, context);
+  TimedSearch timed(*search, pauses.empty() ? 0 : path_timeout_);
   std::uint64_t spent = 0;
   for (const SearchPause& pause : pauses) {
-    if (search->run({.max_steps = pause.steps - spent}) != SearchStatus::paused) return search->result();
+    if (!timed.goes_on(pause.steps - spent)) return timed.result();
     spent = pause.steps;
     const Clock::time_point begin = Clock::now();
     answer.certificate = pause.proof();
@@ -211,7 +240,9 @@ PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, con
       return result;
     }
   }
-  return run_to_end(*search);
+  while (timed.goes_on(0)) {
+  }
+  return timed.result();
 }
 
 /// Prepares the parts, so that worlds can be made; on failure fills `result`.
@@ -240,7 +271,8 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
   const Clock::time_point begin = Clock::now();
   RunContext own = context;
   own.rng = rng_.fork(stream_of(key));
-  if (path_timeout_ > 0) own.deadline = context.deadline.earlier(Deadline::after_seconds(path_timeout_));
+  if (path_timeout_ > 0 && pauses.empty())
+    own.deadline = context.deadline.earlier(Deadline::after_seconds(path_timeout_));
   // A path that was found shortly before this deadline is still verified: only the end of the run interrupts a check.
   const Checker checker(*this, attempt, context);
   bool false_claim = false;  // of a success: the planner's fault, even after the deadline

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -255,28 +254,6 @@ TEST(ProofSchedule, WhatIsFoundIsNotProvedAway) {
   Rig s(row(2), with(fake::setup(fake::push), {costly.prover("m", kMedium), costly.prover("h", kHigh)}));
   EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome(), Outcome::solved);
   EXPECT_EQ(costly.parts.size(), 0U);
-}
-
-TEST(ProofSchedule, TimeOfProofsIsNotThatOfTheAttempt) {
-  using Clock = std::chrono::steady_clock;
-  const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
-  constexpr double kLimit = 1000;
-  Clock::time_point begin, end;
-  double limit_of_proof = 0;
-  const NamedProver prover =
-      fake::prover("p", kLow, [&](const SeparationQuery&, const RunContext& c) -> std::optional<Certificate> {
-        begin = Clock::now();
-        limit_of_proof = c.deadline.seconds_left();
-        end = Clock::now();
-        return std::nullopt;
-      });
-  RunOptions options;
-  options.path_timeout = kLimit;
-  Rig s(row(2), with(fake::setup([](const PathQuery&, RunContext&) { return outcome(Outcome::exhausted); }), {prover}),
-        1, options);
-  const AttemptResult& r = s.ask(leave(s.assembly, 0, 3));
-  EXPECT_GT(limit_of_proof, kLimit) << "the limit is that of the search";
-  EXPECT_GE(r.proof_seconds, seconds(end - begin));
 }
 
 TEST(ProofSchedule, WithoutProversNothingIsProved) {

@@ -1,6 +1,7 @@
 #include "fallback.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "dismantle/executor.h"
@@ -80,7 +81,8 @@ Decision Fallback::run_beside_first(const RunContext& context, Portion& portion)
 
 Decision Fallback::run(const RunContext& context, Portion& portion) {
   const bool begins = at_ == 0 && !members_.order().front()->begun();
-  if (begins && portion.left == kUnlimited && may_run_beside(context)) {
+  const bool limited = portion.left != kUnlimited || std::isfinite(portion.end.seconds_left());
+  if (begins && !limited && may_run_beside(context)) {
     const Decision first = run_beside_first(context, portion);
     if (!first.is_open()) return first;
   }

@@ -9,8 +9,8 @@ void MemberSearch::begin(const PathQuery& query, const RunContext& context) {
   search_ = planner_->start(*query_, *context_);
 }
 
-SearchStatus MemberSearch::run(std::uint64_t steps) {
-  const SearchStatus status = search_->run({.max_steps = steps});
+SearchStatus MemberSearch::run(const Budget& portion) {
+  const SearchStatus status = search_->run(portion);
   last_ = search_->result();
   ended_ = status != SearchStatus::paused;
   return status;

@@ -27,8 +27,8 @@ class MemberSearch {
   void leave_out() { ended_ = true; }
   /// Makes the search. References in `query` outlive this; `context` is copied.
   void begin(const PathQuery& query, const RunContext& context);
-  /// Runs the search for `steps` steps and state checks; 0: without a limit.
-  SearchStatus run(std::uint64_t steps);
+  /// Continues the search for `portion`.
+  SearchStatus run(const Budget& portion);
   /// Back to the state before begin().
   void reset();
 

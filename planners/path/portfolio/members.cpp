@@ -5,11 +5,13 @@
 #include <map>
 #include <string>
 
+#include "dismantle/path/time_limit.h"
+
 namespace dismantle::portfolio {
 
 Members::Members(const std::vector<Member>& list, const std::vector<std::shared_ptr<PathPlanner>>& planners,
                  const PathQuery& query)
-    : query_(query), participation_(query) {
+    : query_(query), participation_(query), deadline_(path::deadline_of(query.budget)) {
   std::map<std::string, std::uint64_t> times;
   for (std::size_t k = 0; k < planners.size(); ++k) {
     const std::string& type = list[k].plugin.type();
@@ -61,7 +63,7 @@ void Members::begin(MemberSearch& m, const RunContext& context, const PathChecke
 }
 
 std::optional<Decision> Members::prepare(MemberSearch& m, const RunContext& context, const Portion& portion) {
-  if (portion.left == 0) return Decision{SearchStatus::paused, nullptr};
+  if (portion.over()) return Decision{SearchStatus::paused, nullptr};
   if (budget_left() == 0) {
     m.time_out();
     return Decision{SearchStatus::failed, &m};
@@ -73,7 +75,10 @@ std::optional<Decision> Members::prepare(MemberSearch& m, const RunContext& cont
 Decision Members::run(MemberSearch& m, std::uint64_t most, Portion& portion) {
   const std::uint64_t before = m.spent();
   const std::uint64_t steps = std::min({most, portion.left, budget_left(), allowance(m)});
-  const SearchStatus status = m.run(steps == kUnlimited ? 0 : std::max<std::uint64_t>(1, steps));
+  Budget own;
+  if (steps != kUnlimited) own.max_steps = std::max<std::uint64_t>(1, steps);
+  if (const double left = portion.end.seconds_left(); std::isfinite(left)) own.timeout = std::max(1e-9, left);
+  const SearchStatus status = m.run(own);
   if (portion.left != kUnlimited) portion.left -= std::min(portion.left, m.spent() - before);
   switch (status) {
     case SearchStatus::solved:

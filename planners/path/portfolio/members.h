@@ -15,9 +15,11 @@ namespace dismantle::portfolio {
 
 constexpr std::uint64_t kUnlimited = ~std::uint64_t{0};
 
-/// Steps and state checks that are left of one call of PathSearch::run().
+/// What is left of one call of PathSearch::run().
 struct Portion {
-  std::uint64_t left = kUnlimited;
+  std::uint64_t left = kUnlimited;  ///< steps and state checks
+  Deadline end{};
+  bool over() const { return left == 0 || end.passed(); }
 };
 
 /// The status, and the member that decided it; null: no member has found a path or failed.
@@ -50,8 +52,6 @@ class Members {
   MemberSearch* primary() const { return primary_; }
   const std::vector<MemberSearch>& all() const { return members_; }
 
-  /// Members that begin have no more time than until `deadline`.
-  void set_deadline(const Deadline& deadline) { deadline_ = deadline; }
   /// Whether a member may begin: at a sufficient depth, or because paths of the primary member were refused.
   bool ready(const MemberSearch& m);
   void begin(MemberSearch& m, const RunContext& context, const PathChecker& checker);
@@ -68,7 +68,7 @@ class Members {
 
   const PathQuery& query_;
   Participation participation_;
-  Deadline deadline_;
+  const Deadline deadline_;
   std::vector<MemberSearch> members_;  ///< in the order of the list
   std::vector<MemberSearch*> order_;
   MemberSearch* primary_ = nullptr;

@@ -10,11 +10,7 @@ namespace dismantle::portfolio {
 PortfolioSearch::PortfolioSearch(const Parameters& parameters,
                                  const std::vector<std::shared_ptr<PathPlanner>>& planners, const PathQuery& query,
                                  RunContext& context)
-    : parameters_(parameters),
-      query_(query),
-      context_(context),
-      deadline_(path::deadline_of(query.budget)),
-      members_(parameters.of, planners, query) {}
+    : parameters_(parameters), query_(query), context_(context), members_(parameters.of, planners, query) {}
 
 SearchStatus PortfolioSearch::run(const Budget& budget) {
   if (status_ != SearchStatus::paused) return status_;
@@ -34,9 +30,8 @@ SearchStatus PortfolioSearch::run(const Budget& budget) {
     else
       fallback_.emplace(members_, parameters_.speculative);
   }
-  Portion portion;
+  Portion portion{.end = path::deadline_of(budget)};
   if (budget.max_steps > 0) portion.left = budget.max_steps;
-  members_.set_deadline(deadline_.earlier(path::deadline_of(budget)));
   const Decision decision = rounds_ ? rounds_->run(context_, portion) : fallback_->run(context_, portion);
   decided_by_ = decision.by != nullptr ? decision.by : members_.primary();
   return status_ = decision.status;

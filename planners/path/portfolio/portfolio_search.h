@@ -26,7 +26,6 @@ class PortfolioSearch final : public PathSearch {
   const Parameters& parameters_;
   const PathQuery& query_;
   RunContext& context_;
-  Deadline deadline_;
   Members members_;
   std::optional<Rounds> rounds_;  ///< one of these two, from the first run() on
   std::optional<Fallback> fallback_;

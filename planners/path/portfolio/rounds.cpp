@@ -64,7 +64,7 @@ Decision Rounds::take_turn(MemberSearch& m, const RunContext& context, Portion& 
   const Decision decision = members_.run(m, left, portion);
   if (decision.status != SearchStatus::paused) return decision;
   const bool turn_goes_on = length == kUnlimited || m.spent() - turn_began_ < length;
-  return portion.left == 0 && turn_goes_on ? decision : Decision{};
+  return portion.over() && turn_goes_on ? decision : Decision{};
 }
 
 }  // namespace dismantle::portfolio

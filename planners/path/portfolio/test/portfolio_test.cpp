@@ -91,6 +91,21 @@ TEST(Portfolio, PortionsChangeNothing) {
   }
 }
 
+TEST(Portfolio, PortionsOfTimeChangeNothingAndEndInTheMiddleOfATurn) {
+  Rng rng(6);
+  for (int round = 0; round < 50; ++round) {
+    Set set;
+    fill_at_random(set, rng);
+    const PathResult whole = set.run();
+    std::uint64_t spent = 0;
+    for (std::size_t k = 0; k < set.scripts.size(); ++k) spent += set.spent(k);
+    const PathResult pieces = set.run(Budget{.timeout = 1e-5});
+    EXPECT_EQ(pieces.outcome(), whole.outcome());
+    EXPECT_EQ(pieces.stats, whole.stats);
+    EXPECT_GE(set.portions, spent) << "one step each";
+  }
+}
+
 TEST(Portfolio, FallbackRunsOneAfterTheOther) {
   Rng rng(5);
   for (int round = 0; round < 50; ++round) {

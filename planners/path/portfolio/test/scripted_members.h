@@ -53,7 +53,9 @@ class Scripted final : public PathPlanner {
     }
     SearchStatus run(const Budget& portion) override {
       const std::uint64_t limit = query_.budget.max_steps > 0 ? query_.budget.max_steps : ~std::uint64_t{0};
-      const std::uint64_t until = portion.max_steps > 0 ? done_ + portion.max_steps : ~std::uint64_t{0};
+      std::uint64_t until = portion.max_steps > 0 ? done_ + portion.max_steps : ~std::uint64_t{0};
+      const Deadline end_of_portion = portion.timeout > 0 ? Deadline::after_seconds(portion.timeout) : Deadline();
+      if (portion.timeout > 0) until = done_ + 1;  // a step takes longer than the portion
       const std::uint64_t begin = done_;
       const std::uint64_t work = of_.script_.work - std::min(of_.script_.work, before_);
       SearchStatus status = SearchStatus::paused;
@@ -71,6 +73,8 @@ class Scripted final : public PathPlanner {
           continue;
         }
         break;
+      }
+      while (portion.timeout > 0 && !end_of_portion.passed()) {
       }
       result_.stats.steps = done_;
       result_.stats.refused = of_.script_.refused;
@@ -123,6 +127,7 @@ struct Set {
   std::shared_ptr<const SearchState> resume_from;
   RunContext context;
   SearchStatus status = SearchStatus::paused;
+  std::uint64_t portions = 0;  ///< of the last run()
 
   void add(const Script& script, const Member& member = {}) {
     scripts.push_back(script);
@@ -130,7 +135,9 @@ struct Set {
     parameters.of.back().plugin = PluginRef<PathPlanner>("member" + std::to_string(scripts.size()));
   }
   /// Runs it in portions of this many steps; 0: in one.
-  PathResult run(std::uint64_t portion = 0) {
+  PathResult run(std::uint64_t portion = 0) { return run(Budget{.max_steps = portion}); }
+  PathResult run(const Budget& portion) {
+    portions = 0;
     log.runs.clear();
     log.depths.clear();
     std::vector<std::shared_ptr<PathPlanner>> planners;
@@ -139,8 +146,10 @@ struct Set {
     const PathQuery query{assembly, physics, prepared,         {{{1, Pose{}}}, {{0, Pose{}}}}, budget, 0.01,
                           checker,  {},      resume_from.get()};
     PortfolioSearch search(parameters, planners, query, context);
-    do status = search.run({.max_steps = portion});
-    while (status == SearchStatus::paused);
+    do {
+      status = search.run(portion);
+      ++portions;
+    } while (status == SearchStatus::paused);
     EXPECT_EQ(search.run({}), status) << "what has ended has ended";
     return search.result();
   }
