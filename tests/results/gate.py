@@ -211,7 +211,10 @@ class Planner:
         if source is None:
             return None
         target = self.keep / "@".join(key_of(row)).replace("/", "_").replace(" ", "_") if self.keep else out / "plan"
-        done = self.call("plan", source, "-c", ROOT / "configs" / f"{row['configuration']}.yaml", "-o", target,
+        configuration = HERE / f"{row['configuration']}.yaml"
+        if not configuration.exists():
+            configuration = ROOT / "configs" / configuration.name
+        done = self.call("plan", source, "-c", configuration, "-o", target,
                          "--path-timeout", "0", "--timeout", "0", "--set", f"run.path_steps={row['path_steps']}",
                          "--set", f"verify.max_penetration={row['tolerance']}", "--threads", str(self.threads), "-q",
                          "--format", "json")
