@@ -67,7 +67,8 @@ std::string explain_json(const Explanation& e) {
     steps.push_back(std::move(one));
   }
   for (const LeftReason& reason : e.left) left.push_back(reason_json(plan, reason));
-  for (const PlanExcluded& e : plan.assembly.excluded) excluded.push_back({{"name", e.name}, {"reason", e.reason}});
+  for (const PlanExcluded& part : plan.assembly.excluded)
+    excluded.push_back({{"name", part.name}, {"reason", part.reason}});
   const Json out = {{"status", result_word(plan)},
                     {"unit", plan.assembly.unit.empty() ? "input units" : plan.assembly.unit},
                     {"parts", plan.assembly.parts.size()},

@@ -125,7 +125,7 @@ std::string explain_text(const Explanation& e) {
       fmt::format("{}: {}, {} done, {}\n", a.source, text::counted(a.parts.size(), "part"),
                   text::counted(plan.disassembly.size(), "step"),
                   result_text(plan));
-  for (const PlanExcluded& e : a.excluded) out += fmt::format("left out: {}: {}\n", e.name, e.reason);
+  for (const PlanExcluded& part : a.excluded) out += fmt::format("left out: {}: {}\n", part.name, part.reason);
   for (const LeftReason& reason : e.left) out += reason_text(plan, reason);
   if (!e.untried.empty())
     out += fmt::format("\nstill together, without a failed search on record: {}\n", text::joined(e.untried));
