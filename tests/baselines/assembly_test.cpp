@@ -28,7 +28,7 @@ Planned plan(const std::string& sample, const ParamSet& parameters, Settings set
   RunContext context;
   context.threads = threads;
   const LoadedAssembly loaded =
-      session.load(InputParts{samples::make(sample, parameters), "", {}}, sample, context);
+      session.load(InputParts{samples::make(sample, parameters), "", {}, {}}, sample, context);
   return {*loaded.assembly, session.plan(loaded, context)};
 }
 

@@ -28,7 +28,7 @@ RunResult plan(const std::string& sample, const ParamSet& parameters, const std:
   const Session session = session_of(planner, home_of(planner), set);
   RunContext context;
   context.threads = threads;
-  return session.plan(session.load(InputParts{samples::make(sample, parameters), "", {}}, sample, context), context);
+  return session.plan(session.load(InputParts{samples::make(sample, parameters), "", {}, {}}, sample, context), context);
 }
 
 /// Blocked parts shall not cost a test much.

@@ -64,7 +64,7 @@ HeldAssembly from_parts(std::vector<RawPart> raw, const std::string& source, con
   const CancelToken cancel;
   HeldAssembly loaded = run_interruptible(cancel, py::none(), OnInterrupt::raise, [&] {
     const Session session = make_session(file, overrides);
-    return HeldAssembly{session.load(InputParts{raw, hash, {}}, source, make_context(session, cancel))};
+    return HeldAssembly{session.load(InputParts{raw, hash, {}, {}}, source, make_context(session, cancel))};
   });
   loaded.raw = std::make_shared<const std::vector<RawPart>>(std::move(raw));
   return loaded;

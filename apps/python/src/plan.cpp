@@ -70,7 +70,7 @@ void bind_plan_texts(PlanClass& plan) {
                       }))
       .def("__repr__", [](const HeldPlan& self) {
         return fmt::format("<Plan of '{}': {}, {} steps, {} parts>", self.plan.assembly.source,
-                           word_of(self.plan.status), self.plan.disassembly.size(), self.plan.assembly.parts.size());
+                           to_string(self.plan.status), self.plan.disassembly.size(), self.plan.assembly.parts.size());
       });
 }
 

@@ -96,7 +96,7 @@ PlanCheck verify(const HeldPlan& held, const py::object& given, std::optional<do
     const Session session = Session::reader(make_registry());
     const RunContext context = make_context(session, cancel);
     const Assembly assembly = raw != nullptr
-                                  ? session.assembly_of(held.plan, InputParts{*raw, sha256, {}}, path, context)
+                                  ? session.assembly_of(held.plan, InputParts{*raw, sha256, {}, {}}, path, context)
                                   : session.assembly_of(held.plan, path, context);
     return session.verify(held.plan, assembly, context, {.tolerance = tolerance});
   });

@@ -106,7 +106,9 @@ TEST(MeshEdges, AreInTheOrderOfTheirVertices) {
     const auto key = [](const auto& e) { return std::tuple(e.lo, e.hi, e.triangle, e.corner); };
     for (std::size_t k = 0; k < edges.size(); ++k) {
       const auto& e = edges[k];
-      if (k > 0) ASSERT_LT(key(edges[k - 1]), key(e));  // so none is there twice
+      if (k > 0) {
+        ASSERT_LT(key(edges[k - 1]), key(e));  // so none is there twice
+      }
       const Triangle& t = m.triangles[e.triangle];
       const std::uint32_t a = t[e.corner], b = t[(e.corner + 1) % 3];
       ASSERT_EQ(std::tuple(e.lo, e.hi, e.forward), std::tuple(std::min(a, b), std::max(a, b), a < b));

@@ -84,7 +84,9 @@ TEST(PlanChecks, AreReadAsTheyWereWritten) {
       EXPECT_EQ(a.failed, b.failed);
       EXPECT_EQ(a.notes, b.notes);
       ASSERT_EQ(a.certificate.has_value(), b.certificate.has_value());
-      if (a.certificate) EXPECT_EQ(a.certificate->numbers, b.certificate->numbers);
+      if (a.certificate) {
+        EXPECT_EQ(a.certificate->numbers, b.certificate->numbers);
+      }
     }
   }
 }

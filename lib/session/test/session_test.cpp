@@ -72,7 +72,7 @@ class SessionTest : public ::testing::Test {
 const std::vector<std::string> kOneThread = {"run.threads=1"};
 
 LoadedAssembly sample(const Session& session, const std::string& name) {
-  return session.load(InputParts{samples::make(name), "", {}}, name);
+  return session.load(InputParts{samples::make(name), "", {}, {}}, name);
 }
 
 /// Everything but the times.

@@ -117,7 +117,9 @@ TEST(Progressive, HintsOnlyWhenThereAreThreads) {
     RunContext context;
     context.threads = threads;
     Progressive planner(algorithm_2());
-    planner.plan(assembly, oracle, notes, context);
+    const Constraints constraints;
+    const Objective objective;
+    planner.plan({assembly, whole_assembly(assembly), constraints, objective}, oracle, notes, context);
     EXPECT_EQ(oracle.hinted > 0, threads > 1);
   }
 }

@@ -53,7 +53,9 @@ void expect_same(const StepVerdict& a, const StepVerdict& b, const std::string& 
   EXPECT_EQ(a.reason, b.reason) << what;
   EXPECT_EQ(a.notes, b.notes) << what;
   ASSERT_EQ(a.certificate.has_value(), b.certificate.has_value()) << what;
-  if (a.certificate) EXPECT_EQ(a.certificate->numbers, b.certificate->numbers) << what;
+  if (a.certificate) {
+    EXPECT_EQ(a.certificate->numbers, b.certificate->numbers) << what;
+  }
 }
 
 class StepCheckContract : public testing::TestWithParam<std::string> {

@@ -37,7 +37,10 @@ TEST(BlockingSearches, EachMayResumeTheLastOfThePart) {
     RunContext context = seeded(1);
     const Assembly assembly = machine.assembly();
     Blocking planner(BlockingParams{});
-    EXPECT_EQ(planner.plan(assembly, oracle, notes, context).outcome, Outcome::solved);
+    const Constraints constraints;
+    const Objective objective;
+    const SequenceQuery query{assembly, whole_assembly(assembly), constraints, objective};
+    EXPECT_EQ(planner.plan(query, oracle, notes, context).outcome, Outcome::solved);
     std::map<PartId, std::size_t> last;
     for (std::size_t k = 0; k < oracle.questions.size(); ++k) {
       const Attempt& now = oracle.questions[k];

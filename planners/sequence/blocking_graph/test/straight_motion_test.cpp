@@ -64,7 +64,9 @@ TEST(StraightMotion, DirectionsAreThoseOfOneThatKnowsNothing) {
     Observer observer;
     const Constraints constraints;
     RunContext context;
-    DisassemblyState state(assembly, constraints, {}, PartOrder::as_given, observer, context);
+    const Objective objective;
+    const SequenceQuery query{assembly, whole_assembly(assembly), constraints, objective};
+    DisassemblyState state(query, {}, PartOrder::as_given, observer, context);
     const PairSweep sweep(assembly, oracle);
     StraightMotion kept(state, oracle, sweep, directions_of(assembly));
     state.add_listener(kept);

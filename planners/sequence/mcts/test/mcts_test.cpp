@@ -15,11 +15,18 @@ using mcts::Choice;
 using mcts::Knowledge;
 using mcts::UctSettings;
 
+/// The first parts, as assembled.
+std::vector<PlacedPart> group_of(std::size_t parts) {
+  std::vector<PlacedPart> group;
+  for (PartId id = 0; id < parts; ++id) group.push_back({id, Pose{}});
+  return group;
+}
+
 TEST(Knowledge, ChancesGrowAsWhatWasInTheWayLeaves) {
   Rng rng(1);
   for (int trial = 0; trial < 200; ++trial) {
     const std::size_t parts = 3 + rng.below(10);
-    Knowledge knowledge(parts, 0);
+    Knowledge knowledge(parts, group_of(parts), 0);
     std::vector<PartId> blockers;
     for (PartId k = 1; k < parts; ++k)
       if (blockers.empty() || rng.below(2) == 0) blockers.push_back(k);
@@ -43,7 +50,7 @@ TEST(Knowledge, ChancesGrowAsWhatWasInTheWayLeaves) {
 }
 
 TEST(Knowledge, TheSameQuestionIsNotOpenTwice) {
-  Knowledge knowledge(3, 2);
+  Knowledge knowledge(3, group_of(3), 2);
   EXPECT_EQ(knowledge.open(), (std::vector<PartId>{0, 1, 2}));
   knowledge.failed(1, Outcome::exhausted, {0}, 1);
   EXPECT_EQ(knowledge.open(), (std::vector<PartId>{0, 2}));
@@ -61,7 +68,7 @@ TEST(Uct, SpendsAllSimulationsAndDependsOnTheSeedAlone) {
   Rng machines(2);
   for (int trial = 0; trial < 40; ++trial) {
     const std::size_t parts = 2 + machines.below(12);
-    const Knowledge knowledge(parts, 0);
+    const Knowledge knowledge(parts, group_of(parts), 0);
     UctSettings settings;
     settings.simulations = static_cast<std::int64_t>(1 + machines.below(300));
     Rng a(7), b(7);
@@ -85,7 +92,7 @@ TEST(Uct, SpendsAllSimulationsAndDependsOnTheSeedAlone) {
 
 /// A run in which most questions were successes, each at cost 10: parts from `first` on have left.
 Knowledge after_successes(PartId first) {
-  Knowledge knowledge(first + 20, 0);
+  Knowledge knowledge(first + 20, group_of(first + 20), 0);
   for (PartId k = first; k < first + 20; ++k) knowledge.removed(k, 10);
   return knowledge;
 }

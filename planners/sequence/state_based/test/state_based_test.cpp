@@ -56,7 +56,7 @@ Assembly stopped_passage() {
 struct Beginning {
   explicit Beginning(Assembly parts, PartOrder order = PartOrder::as_given)
       : assembly(std::move(parts)),
-        state(assembly, constraints, {}, order, observer, context),
+        state({assembly, whole_assembly(assembly), constraints, objective}, {}, order, observer, context),
         sweep(assembly, oracle),
         straight(state, oracle, sweep, blocking::directions_of(assembly)),
         states(state, straight, sweep, oracle.tolerance(), {}),
@@ -79,6 +79,7 @@ struct Beginning {
   Oracle oracle;
   Observer observer;
   Constraints constraints;
+  Objective objective;
   RunContext context;
   blocking::DisassemblyState state;
   blocking::PairSweep sweep;

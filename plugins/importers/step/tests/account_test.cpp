@@ -189,7 +189,7 @@ TEST(StepExternal, OnlyFilesOfTheFolderAreOpened) {
     EXPECT_TRUE(external_files(file).refused.empty()) << name;
     EXPECT_EQ(external_files(file).read.size(), std::string(name) == "missing.stp" ? 0u : 1u) << name;
   }
-  for (const std::string name : {std::string("../outside.stp"), std::string("link.stp"), std::string("pipe.stp"),
+  for (const std::string& name : {std::string("../outside.stp"), std::string("link.stp"), std::string("pipe.stp"),
                                  (scratch / "outside.stp").string(), std::string("/dev/zero")}) {
     const auto file = scratch.write("in/main.step", refers_to(name));
     const std::string error = input_error([&] { read(file); });
