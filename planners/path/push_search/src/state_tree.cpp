@@ -4,6 +4,8 @@
 #include <iterator>
 #include <utility>
 
+#include "dismantle/path/placed_parts.h"
+
 namespace dismantle::push {
 namespace {
 
