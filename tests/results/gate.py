@@ -183,6 +183,14 @@ def found_in(plan, exit_status, summary):
     return {k: str(v) for k, v in found.items()}, proofs
 
 
+def configuration_of(row):
+    """The option for a file of this folder or of configs; none for `default`, so that older programs can be compared, too."""
+    if row["configuration"] == "default":
+        return ()
+    own = HERE / f"{row['configuration']}.yaml"
+    return "-c", own if own.exists() else ROOT / "configs" / own.name
+
+
 class Planner:
     def __init__(self, arguments, folder):
         self.program, self.data, self.threads = arguments.program, arguments.data, arguments.threads
@@ -211,10 +219,7 @@ class Planner:
         if source is None:
             return None
         target = self.keep / "@".join(key_of(row)).replace("/", "_").replace(" ", "_") if self.keep else out / "plan"
-        configuration = HERE / f"{row['configuration']}.yaml"
-        if not configuration.exists():
-            configuration = ROOT / "configs" / configuration.name
-        done = self.call("plan", source, "-c", configuration, "-o", target,
+        done = self.call("plan", source, *configuration_of(row), "-o", target,
                          "--path-timeout", "0", "--timeout", "0", "--set", f"run.path_steps={row['path_steps']}",
                          "--set", f"verify.max_penetration={row['tolerance']}", "--threads", str(self.threads), "-q",
                          "--format", "json")
