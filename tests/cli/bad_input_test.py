@@ -93,8 +93,8 @@ class Files(BadInput):
         self.folder_with("in", ("b.obj", meshes.obj(*UNIT)), ("c.obj", meshes.obj(*BESIDE)))
         os.mkfifo(self.path("in", "a.obj"))
         os.mkdir(self.path("in", "d.obj"))
-        _, said, _ = self.prepared("in")
-        self.assertIn("'a.obj' is no regular file", said)
+        _, said, _ = self.prepared("in", status=1)
+        self.assertIn("part 'a.obj' is left out: it is no regular file", said)
         self.assertIn("'d.obj'", said)
         os.symlink("nowhere.obj", self.path("in", "e.obj"))
         self.assert_left_out("in", "e.obj")
@@ -122,7 +122,7 @@ class Files(BadInput):
         os.rename(self.path("in", "plan.glb"), self.path("in", "renamed.glb"))
         done = self.run_program("plan", "in", *QUICK, "-o", "in", "--format", "json", status=0)
         self.assertEqual(self.result_of(done)["parts"], first["parts"])
-        self.assertIn("'renamed.glb' is the animation of a plan", done.stderr)
+        self.assertIn("'renamed.glb' is left out: it is the animation of a plan", done.stderr)
         self.assert_fails(2, "is the input itself", "prepare", "in", "-o", "in")
 
     def test_a_part_that_is_not_there_is_refused_before_anything_is_prepared(self):

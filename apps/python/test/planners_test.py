@@ -247,12 +247,16 @@ class Alphabet(dismantle.StepCheck):
 
 @dismantle.step_check("test.broken")
 class Broken(dismantle.StepCheck):
+    """Raises an error."""
+
     def judge(self, question):
         raise KeyError("nothing here")
 
 
 @dismantle.step_check("test.whole")
 class Whole(dismantle.StepCheck):
+    """Judges the plan as a whole."""
+
     def judge(self, question):
         return dismantle.StepVerdict(allowed=False, reason="never")
 

@@ -56,12 +56,17 @@ std::vector<ExcludedPart> take_ignored(const std::vector<std::string>& ignore, s
   return out;
 }
 
-/// Sequence planners that keep constraints: "'blocking', 'ndbg'".
+/// Sequence planners that keep constraints: "'blocking', 'ndbg'". Those that are made of others depend on these, and
+/// those that force steps plan nothing by themselves.
 std::string constraint_keepers(const Registry& registry) {
   std::string out;
-  for (const RegisteredType* type : registry.types(PluginKind::sequence_planner))
-    if (registry.create<SequencePlanner>(type->type.id)->traits().keeps_constraints)
+  for (const RegisteredType* type : registry.types(PluginKind::sequence_planner)) {
+    const std::vector<ParamSpec>& parameters = type->type.params;
+    if (std::any_of(parameters.begin(), parameters.end(), [](const ParamSpec& p) { return p.required; })) continue;
+    const SequencePlannerTraits traits = registry.create<SequencePlanner>(type->type.id)->traits();
+    if (traits.keeps_constraints && !traits.forces)
       out += fmt::format("{}'{}'", out.empty() ? "" : ", ", type->type.id);
+  }
   return out.empty() ? "none of those that were found does" : "these do: " + out;
 }
 

@@ -189,13 +189,23 @@ SequenceResult LeastCut::plan(const SequenceQuery& query, PathOracle& oracle, Se
   SequenceResult result;
   result.outcome = Outcome::exhausted;
   result.unsolved.assign(query.said.begin(), query.said.end());
-  for (const auto& group : query.start)
+  bool apart = true;
+  for (const auto& group : query.start) {
     for (const PlacedPart& p : group) result.remaining.push_back(p.part);
-  if (context.cancel.cancelled()) {
-    result.outcome = Outcome::cancelled;
+    apart = apart && group.size() < 2;
+  }
+  if (apart) {
+    result.outcome = Outcome::solved;
+    result.unsolved.clear();
     return result;
   }
-  if (oracle.forcing() == nullptr || oracle.memo() == nullptr || query.start.empty()) return result;
+  const bool forces = oracle.forcing() != nullptr && oracle.memo() != nullptr;
+  if (context.cancel.cancelled()) result.outcome = Outcome::cancelled;
+  if (!forces && result.outcome != Outcome::cancelled && context.should_stop()) result.outcome = Outcome::timeout;
+  for (const PartId id : result.remaining)
+    if (std::none_of(result.unsolved.begin(), result.unsolved.end(), [id](const Unsolved& u) { return u.part == id; }))
+      result.unsolved.push_back({id, result.outcome, {}, {}, "no verified path was searched for"});
+  if (!forces || context.cancel.cancelled()) return result;
   least_cut::Session& session = least_cut::session_of(query, oracle, params_);
   if (!session.proofs_tried) oracle.forcing()->prove_left(result.unsolved, query.start, context);
   session.proofs_tried = true;

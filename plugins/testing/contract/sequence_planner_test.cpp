@@ -20,8 +20,10 @@ using namespace contract;
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SequencePlannerContract);
 
+/// A planner that works only by force takes nothing apart without it; only its declarations have laws.
 class SequencePlannerContract : public testing::TestWithParam<std::string> {
  protected:
+  static bool only_forces() { return make()->traits().forces; }
   static std::shared_ptr<SequencePlanner> make() { return registry().create<SequencePlanner>(GetParam()); }
   static FakeRun go(const FakeMachine& machine, RunContext context, std::function<void(std::size_t)> on_attempt = {}) {
     return run_on(*make(), machine, std::move(context), std::move(on_attempt));
@@ -35,6 +37,7 @@ TEST_P(SequencePlannerContract, DeclaresItsParametersInFull) {
 }
 
 TEST_P(SequencePlannerContract, TakesApartWhatCanBeTakenApart) {
+  if (only_forces()) GTEST_SKIP() << "it removes parts by force only";
   Rng rng(101);
   for (int trial = 0; trial < 100; ++trial) {
     const unsigned depth = 1 + static_cast<unsigned>(rng.below(4));
@@ -48,6 +51,7 @@ TEST_P(SequencePlannerContract, TakesApartWhatCanBeTakenApart) {
 }
 
 TEST_P(SequencePlannerContract, FindsTheOnlyOrder) {
+  if (only_forces()) GTEST_SKIP() << "it removes parts by force only";
   for (const bool ascending : {false, true}) {
     FakeMachine machine(9);
     std::vector<PartId> order;
@@ -61,6 +65,7 @@ TEST_P(SequencePlannerContract, FindsTheOnlyOrder) {
 }
 
 TEST_P(SequencePlannerContract, NoticesADeadlock) {
+  if (only_forces()) GTEST_SKIP() << "it removes parts by force only";
   Rng rng(102);
   for (int trial = 0; trial < 50; ++trial) {
     FakeMachine machine = FakeMachine::random(6, 0.3, 3, rng);
@@ -74,6 +79,7 @@ TEST_P(SequencePlannerContract, NoticesADeadlock) {
 }
 
 TEST_P(SequencePlannerContract, SameSeedSameRun) {
+  if (only_forces()) GTEST_SKIP() << "it removes parts by force only";
   Rng rng(103);
   for (std::uint64_t seed = 1; seed < 20; ++seed) {
     const FakeMachine machine = FakeMachine::random(8, 0.3, 2, rng);
@@ -85,6 +91,7 @@ TEST_P(SequencePlannerContract, SameSeedSameRun) {
 }
 
 TEST_P(SequencePlannerContract, StopsWhenToldAndKeepsWhatIsDone) {
+  if (only_forces()) GTEST_SKIP() << "it removes parts by force only";
   const FakeMachine machine(10);
   RunContext context = seeded(1);
   const CancelToken cancel = context.cancel;
@@ -115,6 +122,7 @@ TEST_P(SequencePlannerContract, OnePartIsNoWork) {
 }
 
 TEST_P(SequencePlannerContract, ReportsProgressThatGrows) {
+  if (only_forces()) GTEST_SKIP() << "it removes parts by force only";
   RunContext context = seeded(1);
   std::size_t last = 0;
   bool complete = false;
@@ -133,6 +141,7 @@ TEST_P(SequencePlannerContract, ReportsProgressThatGrows) {
 
 // Real oracle and runner, boxes and a scripted path planner: the plan must not depend on the threads.
 TEST_P(SequencePlannerContract, SamePlanOnAnyNumberOfThreads) {
+  if (only_forces()) GTEST_SKIP() << "it removes parts by force only";
   const Assembly assembly = fake::tube_with_blocks(4);
   std::set<std::string> plans;
   std::set<std::uint64_t> attempts;

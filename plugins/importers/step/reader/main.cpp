@@ -3,6 +3,8 @@
 // crash or hang.
 #include <unistd.h>
 
+#include <sys/resource.h>
+
 #include <BRepBndLib.hxx>
 #include <Bnd_Box.hxx>
 #include <IFSelect_ReturnStatus.hxx>
@@ -20,8 +22,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <iterator>
 #include <set>
+#include <string>
 #include <stdexcept>
 
 #include "dismantle/geometry/length_unit.h"
@@ -44,6 +48,17 @@ struct Arguments {
   double linear = 0, linear_of_assembly = 0, angular = 0;
   std::uint64_t max_triangles = 0;
 };
+
+/// Has this process come near its limit of address space? Open CASCADE gives up a face whose triangles find no memory,
+/// as it does with a damaged one, and says nothing.
+bool memory_is_short() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return false;
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.rfind("VmPeak:", 0) == 0) return 2 * 1024 * std::stoull(line.substr(7)) > limit.rlim_cur;
+  return false;
+}
 
 class Converter {
  public:
@@ -194,6 +209,10 @@ class Converter {
     if (total_ > arguments_.max_triangles) {
       out_.failure(Failure::too_many_triangles,
                    "more than " + std::to_string(arguments_.max_triangles) + " triangles up to '" + placed.name + "'");
+      return false;
+    }
+    if (surface.triangles.empty() && memory_is_short()) {
+      out_.failure(Failure::out_of_memory, "");
       return false;
     }
     if (surface.triangles.empty()) body.problem = "none of its faces could be tessellated: its geometry is damaged";

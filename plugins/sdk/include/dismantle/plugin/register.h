@@ -11,8 +11,8 @@
 
 namespace dismantle::abi {
 
-/// Hash of the layout of the types that cross the boundary; solids do so as values of a PartMemo.
 #define DISMANTLE_INTERFACE(kind, Interface) Interface,
+/// Hash of the layout of the types that cross the boundary; solids do so as values of a PartMemo.
 inline constexpr std::uint64_t kBoundaryLayout =
     layout_hash<Triangle, Mesh, Pose, Aabb, Part, Normalization, InitialOverlap, ExcludedPart, Assembly, Rgba, RawPart,
                 Capabilities, PlacedPart, Scene, BodyState, State, Wrench, Action, Contact, Trace, StepReport, World,
