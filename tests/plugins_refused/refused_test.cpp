@@ -46,11 +46,17 @@ TEST_P(Refused, WithItsReason) {
     EXPECT_NE(text.find(part), std::string::npos) << "no '" << part << "' in: " << text;
 }
 
+/// What is said about a plugin of this version of the plugin API.
+std::string other_api(int major, int minor) {
+  return "plugin API is " + std::to_string(major) + "." + std::to_string(minor) + " in the plugin, " +
+         std::to_string(kPluginApiMajor) + "." + std::to_string(kPluginApiMinor) + " here";
+}
+
 const Case kCases[] = {
     {"wrong_magic", {"magic is 0x12345678 in the plugin, 0x4c504d44 here", "rebuild"}},
-    {"api_major_newer", {"plugin API is 6.0 in the plugin, 5.0 here", "update Dismantle"}},
-    {"api_major_older", {"plugin API is 4.0 in the plugin, 5.0 here", "rebuild"}},
-    {"api_minor_newer", {"plugin API is 5.1 in the plugin, 5.0 here", "update Dismantle"}},
+    {"api_major_newer", {other_api(kPluginApiMajor + 1, kPluginApiMinor), "update Dismantle"}},
+    {"api_major_older", {other_api(kPluginApiMajor - 1, kPluginApiMinor), "rebuild"}},
+    {"api_minor_newer", {other_api(kPluginApiMajor, kPluginApiMinor + 1), "update Dismantle"}},
     {"header_too_small", {"header size is 64 in the plugin", "rebuild"}},
     {"tiny_header", {"plugin header has 4 bytes", "rebuild"}},
     {"unterminated_id", {"a text in it does not end", "rebuild"}},
