@@ -37,6 +37,8 @@ void LeastCutParams::describe(Schema<LeastCutParams>& s) {
   s.advanced("set_candidates", &LeastCutParams::set_candidates, {.min = 1, .max = 100000});
   s.advanced("set_similarity", &LeastCutParams::set_similarity, {.min = -1, .max = 1});
   s.advanced("depth_samples", &LeastCutParams::depth_samples, {.min = 1, .max = 100000});
+  s.advanced("finalists", &LeastCutParams::finalists, {.min = 1, .max = 100000});
+  s.advanced("depth_resolution", &LeastCutParams::depth_resolution, {.min = 1, .max = 1000});
   s.advanced("depth_share", &LeastCutParams::depth_share, {.min = 0.001, .max = 1});
   s.advanced("depth_poses", &LeastCutParams::depth_poses, {.min = 1, .max = 1e9});
 }
@@ -45,6 +47,8 @@ namespace least_cut {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr double kFineShare = 0.03;  // a stated depth is written with two digits
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
@@ -103,8 +107,8 @@ class Step {
       const AttemptResult& answer = oracle_.propose(question, path, context_);
       if (is_success(answer.result.outcome())) return &answer;
     }
-    // A depth that is not measured yet has to be; the time for a proof is shared with the other steps.
-    own.deadline = choice->measured ? budget_.for_measuring(steps_left()) : budget_.for_all();
+    own.deadline = budget_.for_all();
+    if (choice->depth) choice->depth->proved = choice->measured;
     const AttemptResult& answer = oracle_.forcing()->propose_forced(question, path, choice->depth, said, own);
     // A required check of the objective may not allow it.
     return context_.cancel.cancelled() || !answer.removes() ? nullptr : &answer;
@@ -138,19 +142,36 @@ class Step {
       for (ForcedMotion& m : motions_.candidates(group, context)) all.push_back(std::move(m));
     std::stable_sort(all.begin(), all.end(),
                      [](const ForcedMotion& a, const ForcedMotion& b) { return a.thickness < b.thickness; });
-    MotionDepthOptions options{oracle_.tolerance(), params_.depth_share, std::numeric_limits<double>::infinity(),
+    MotionDepthOptions options{params_.depth_resolution * oracle_.tolerance(), params_.depth_share,
+                               std::numeric_limits<double>::infinity(),
                                static_cast<std::uint64_t>(params_.depth_poses)};
-    std::optional<Choice> best;
+    const auto unsure = [&](double excess) { return excess + std::max(options.absolute, options.relative * excess); };
+    std::vector<Choice> compared;
+    double least = std::numeric_limits<double>::infinity();
     for (const ForcedMotion* m : chosen(all)) {
       Choice now{*m, motions_.depth(*m, options, context)};
+      if (context.should_stop()) break;
+      least = std::min(least, now.excess());
+      options.stop_above = unsure(least);
+      compared.push_back(std::move(now));
+    }
+    if (compared.empty()) return std::nullopt;
+    std::stable_sort(compared.begin(), compared.end(),
+                     [](const Choice& a, const Choice& b) { return a.excess() < b.excess(); });
+    // Those that may be the least are measured to a tolerance.
+    const double most = unsure(least);
+    options = {oracle_.tolerance(), kFineShare, std::numeric_limits<double>::infinity(), 2 * options.most_poses};
+    std::optional<Choice> best;
+    for (std::size_t k = 0; k < compared.size() && k < params_.finalists && compared[k].excess() <= most; ++k) {
+      Choice now{compared[k].motion, motions_.depth(compared[k].motion, options, context)};
       if (context.should_stop()) break;
       if (best && now.excess() >= options.stop_above) continue;
       now.measured = !now.depth || now.depth->proved;
       best = std::move(now);
       options.stop_above = best->excess();
-      if (best->measured && best->excess() <= oracle_.tolerance()) break;
+      if (best->excess() <= oracle_.tolerance()) break;
     }
-    return best;
+    return best ? best : compared.front();
   }
 
   /// The most promising of a few motions, with a lower bound of its depth from rays.

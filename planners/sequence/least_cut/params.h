@@ -21,8 +21,10 @@ struct LeastCutParams {
   unsigned set_candidates = 4;   ///< motions that each set of parts may have among the candidates
   double set_similarity = 0.9;   ///< cosine above which two directions of one set count as one
   unsigned depth_samples = 48;   ///< vertices of each part at which a depth is estimated before it is measured
-  double depth_share = 0.03;     ///< resolution of a depth, as a share of it; at least one tolerance
-  std::int64_t depth_poses = 400;  ///< poses measured per pair of parts
+  unsigned finalists = 4;          ///< candidates that are measured again, to a tolerance
+  double depth_resolution = 8;     ///< of the depths that are compared, in tolerances
+  double depth_share = 0.1;        ///< the same as a share of the depth; the larger of the two applies
+  std::int64_t depth_poses = 200;  ///< poses measured per pair of parts for that comparison
   static void describe(Schema<LeastCutParams>& schema);
 };
 
