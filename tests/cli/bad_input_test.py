@@ -93,6 +93,7 @@ class Files(BadInput):
         self.folder_with("in", ("b.obj", meshes.obj(*UNIT)), ("c.obj", meshes.obj(*BESIDE)))
         os.mkfifo(self.path("in", "a.obj"))
         os.mkdir(self.path("in", "d.obj"))
+        self.put("in/d.obj/inside.obj", meshes.obj(*ABOVE))
         _, said, _ = self.prepared("in", status=1)
         self.assertIn("part 'a.obj' is left out: it is no regular file", said)
         self.assertIn("'d.obj'", said)

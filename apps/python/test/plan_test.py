@@ -144,7 +144,7 @@ def test_what_is_wrong_with_a_plan_file_is_placed(tmp_path):
     (tmp_path / "plan.json").write_text('{"format": "dismantle.plan",\n "version": [}')
     with pytest.raises(dismantle.InputError, match=re.escape(str(tmp_path / "plan.json"))):
         dismantle.Plan.read(tmp_path / "plan.json")
-    with pytest.raises(dismantle.InputError, match="No such file"):
+    with pytest.raises(dismantle.InputError, match="no such file"):
         dismantle.Plan.read(tmp_path / "none.json")
 
 

@@ -81,3 +81,42 @@ class StopsInTheMiddle(dismantle.SequencePlanner):
 
 
 LINES = {"path_planner": {"type": "test.lines"}, "sequence_planner": {"type": "progressive"}}
+
+
+@dismantle.step_check("test.alphabet", [dismantle.Parameter("reverse", False, "Descending.")])
+class Alphabet(dismantle.StepCheck):
+    """Parts are put in by their names."""
+
+    remembers = ("shape",)
+
+    def __init__(self, reverse):
+        self.reverse = reverse
+
+    def judge(self, question):
+        assert question.path.shape[1] == len(question.moving) if question.path is not None else True
+        assert set(question.poses) == set(question.moving) | set(question.present)
+        if question.previous is None:
+            return None
+        before, now = question.previous.moving[0], question.moving[0]
+        if (before > now) == self.reverse:
+            return None
+        return dismantle.StepVerdict(1.5, reason=f"{now} after {before}", notes=[dismantle.StepNote("order", "Turn.", '{"from": 1.0e0}')])
+
+
+@dismantle.step_check("test.broken")
+class Broken(dismantle.StepCheck):
+    """Raises an error."""
+
+    def judge(self, question):
+        raise KeyError("nothing here")
+
+
+@dismantle.step_check("test.whole")
+class Whole(dismantle.StepCheck):
+    """Judges the plan as a whole."""
+
+    def judge(self, question):
+        return dismantle.StepVerdict(allowed=False, reason="never")
+
+    def judge_plan(self, questions):
+        return dismantle.StepVerdict(cost=len(questions), reason="its steps")

@@ -225,45 +225,6 @@ def test_groups_that_leave_together_have_to_be_taken_apart(machine):
     assert plan.complete and dismantle.verify(plan, machine).complete
 
 
-@dismantle.step_check("test.alphabet", [dismantle.Parameter("reverse", False, "Descending.")])
-class Alphabet(dismantle.StepCheck):
-    """Parts are put in by their names."""
-
-    remembers = ("shape",)
-
-    def __init__(self, reverse):
-        self.reverse = reverse
-
-    def judge(self, question):
-        assert question.path.shape[1] == len(question.moving) if question.path is not None else True
-        assert set(question.poses) == set(question.moving) | set(question.present)
-        if question.previous is None:
-            return None
-        before, now = question.previous.moving[0], question.moving[0]
-        if (before > now) == self.reverse:
-            return None
-        return dismantle.StepVerdict(1.5, reason=f"{now} after {before}", notes=[dismantle.StepNote("order", "Turn.", '{"from": 1.0e0}')])
-
-
-@dismantle.step_check("test.broken")
-class Broken(dismantle.StepCheck):
-    """Raises an error."""
-
-    def judge(self, question):
-        raise KeyError("nothing here")
-
-
-@dismantle.step_check("test.whole")
-class Whole(dismantle.StepCheck):
-    """Judges the plan as a whole."""
-
-    def judge(self, question):
-        return dismantle.StepVerdict(allowed=False, reason="never")
-
-    def judge_plan(self, questions):
-        return dismantle.StepVerdict(cost=len(questions), reason="its steps")
-
-
 def test_a_step_check_in_python(tmp_path):
     blocks = dismantle.Assembly.from_meshes(loose_blocks())
     for reverse in (False, True):
@@ -303,6 +264,8 @@ def test_a_check_may_judge_the_plan_as_a_whole():
 def test_a_check_says_what_it_remembers():
     @dismantle.step_check("test.remembers_all")
     class RemembersAll(dismantle.StepCheck):
+        """Remembers more than there is."""
+
         remembers = ("everything",)
 
     with pytest.raises(dismantle.PluginError, match="'direction', 'orientation', 'shape'"):

@@ -90,6 +90,7 @@ class Links final : public SequenceObserver {
 
   SequenceResult run() {
     link(0, query_.start, oracle_, time_of_first());
+    if (failed()) return finish();  // what a planner did wrong is not hidden by those after it
     for (const auto& group : open()) tried_.insert(ids_of(group));
     for (std::size_t k = 1; k < planners_.size();) {
       if (context_.cancel.cancelled() || open().empty()) break;
@@ -126,7 +127,8 @@ class Links final : public SequenceObserver {
     running_ = k;
     const SequenceQuery query{query_.assembly, groups, query_.constraints, query_.objective, said_};
     const SequenceResult result = planners_[k]->plan(query, oracle, *this, own);
-    if (all_.outcome == Outcome::crashed) all_.outcome = result.outcome;  // that of the first planner on the whole
+    if (!first_done_) all_.outcome = result.outcome;
+    first_done_ = true;
     for (const auto& [name, count] : result.counts) all_.counts[name] += count;
     for (const Certificate* proof : result.proofs) state(proof);
     for (const Unsolved& u : result.unsolved) {
@@ -138,6 +140,16 @@ class Links final : public SequenceObserver {
       else if (known->certificate == nullptr || u.certificate != nullptr)
         *known = u;
     }
+  }
+
+  /// Has the first planner crashed, or claimed a success that is none?
+  bool failed() {
+    if (is_success(all_.outcome) && !open().empty()) {
+      context_.log(LogLevel::error,
+                   "'" + params_.of.front().type() + "' reports success with parts that are still together");
+      all_.outcome = Outcome::crashed;
+    }
+    return all_.outcome == Outcome::crashed;
   }
 
   /// Gives the groups that planner `k` has made to those before it.
@@ -177,7 +189,8 @@ class Links final : public SequenceObserver {
                                     [](const Removal& removal) { return removal.attempt->forced != nullptr; });
     if (left.empty() && !forced) all_.outcome = Outcome::solved;
     if (!left.empty() && is_success(all_.outcome)) all_.outcome = Outcome::exhausted;
-    if (!left.empty() && context_.cancel.cancelled()) all_.outcome = Outcome::cancelled;
+    if (!left.empty() && context_.cancel.cancelled() && all_.outcome != Outcome::crashed)
+      all_.outcome = Outcome::cancelled;
     for (const Unsolved& u : said_)
       if (std::any_of(left.begin(), left.end(), [&](const auto& group) { return contains(group, u.part); }))
         all_.unsolved.push_back(u);
@@ -194,6 +207,7 @@ class Links final : public SequenceObserver {
   std::vector<Unsolved> said_;           // the latest of each part; one with a proof stays
   std::set<std::vector<PartId>> tried_;  // groups that the first planner was given
   std::size_t running_ = 0;
+  bool first_done_ = false;  // the first planner, on the whole start
   SequenceResult all_;
 };
 
