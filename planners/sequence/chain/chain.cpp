@@ -146,7 +146,7 @@ class Links final : public SequenceObserver {
   bool failed() {
     if (is_success(all_.outcome) && !open().empty()) {
       context_.log(LogLevel::error,
-                   "'" + params_.of.front().type() + "' reports success with parts that are still together");
+                   "the sequence planner '" + params_.of.front().type() + "' reports success with parts still together");
       all_.outcome = Outcome::crashed;
     }
     return all_.outcome == Outcome::crashed;
