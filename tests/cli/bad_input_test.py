@@ -96,7 +96,7 @@ class Files(BadInput):
         self.put("in/d.obj/inside.obj", meshes.obj(*ABOVE))
         _, said, _ = self.prepared("in", status=1)
         self.assertIn("part 'a.obj' is left out: it is no regular file", said)
-        self.assertIn("'d.obj'", said)
+        self.assertIn("part 'd.obj/' is left out: sub-folders are not read", said)
         os.symlink("nowhere.obj", self.path("in", "e.obj"))
         self.assert_left_out("in", "e.obj")
 
