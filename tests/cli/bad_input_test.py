@@ -97,6 +97,9 @@ class Files(BadInput):
         _, said, _ = self.prepared("in", status=1)
         self.assertIn("part 'a.obj' is left out: it is no regular file", said)
         self.assertIn("part 'd.obj/' is left out: sub-folders are not read", said)
+        for gone in ("a.obj", "d.obj/inside.obj"):
+            os.remove(self.path("in", *gone.split("/")))
+        os.rmdir(self.path("in", "d.obj"))
         os.symlink("nowhere.obj", self.path("in", "e.obj"))
         self.assert_left_out("in", "e.obj")
 
