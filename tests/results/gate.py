@@ -174,8 +174,8 @@ def forced_text(plan):
 
 
 def found_in(plan, exit_status, summary):
-    """FOUND of a plan, and its proofs."""
-    proofs = sorted((" ".join(c["parts"]), c["kind"], "yes" if c["full_tolerance"] else "no") for c in plan.get("certificates", []))
+    """FOUND of a plan, and its proofs: each once, at however many arrangements of the parts it was made."""
+    proofs = sorted({(" ".join(c["parts"]), c["kind"], "yes" if c["full_tolerance"] else "no") for c in plan.get("certificates", [])})
     full = sum(1 for proof in proofs if proof[2] == "yes")
     found = {"exit": exit_status, "status": plan["status"], "parts": len(plan["assembly"]["parts"]), "removed": summary["removed"],
              "full_proofs": full, "reduced_proofs": len(proofs) - full,

@@ -135,6 +135,10 @@ class WholeGate(unittest.TestCase):
         self.assertEqual(status, 0, text)
         self.assertEqual(self.run_gate("--jobs", "2", "--assembly", "cad/*", "--tolerance", "0.01")[0], 0)
 
+    def test_the_same_proof_at_two_arrangements_counts_once(self):
+        self.answer(certificates=2 * answer()["plan"]["certificates"])
+        self.assertEqual(self.run_gate()[0], 0)
+
     def test_no_seconds_decide(self):
         self.run_gate("--threads", "2")
         command = json.loads((self.folder / "arguments.json").read_text())
