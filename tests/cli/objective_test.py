@@ -1,14 +1,18 @@
 """Step checks: the objective of a plan, what is shown of it, and that verify judges again."""
 import json
 
-from program import CliTest
+from program import CliTest, box
 
 
 class Objective(CliTest):
-    QUICK = ("--sequence-planner", "ndbg", "--path-planner", "bfs", "--set", "run.force=off", "--set", "immobility.provers=[]", "--set", "layout.enabled=false")
+    QUICK = ("--path-timeout", "0", "--timeout", "0", "--set", "run.force=off", "--set", "immobility.provers=[]", "--set", "layout.enabled=false")
 
     def setUp(self):
         super().setUp()
+        listed = self.run_program("plugins", "list", status=0).stdout
+        self.types = {line.split()[0] for line in listed.splitlines() if line[:1].strip()}
+        if not {"directions", "identical_parts"} <= self.types:
+            self.skipTest("the step checks are not part of this build")
         self.run_program("sample", "machine", "-o", "machine", "--set", "parts=8", status=0)
 
     def plan_with(self, objective, folder, *more):
@@ -42,6 +46,40 @@ class Objective(CliTest):
         self.assertIn("objective: ", resolved.stdout)
         strip = lambda p: [(s["moves"], s["checks"]) for s in p["disassembly"]]
         self.assertEqual(strip(plan), strip(self.read_plan("again")))
+
+    def write_pegs(self, count):
+        """Pegs in cups of one body, which open to +x and to +z in turn."""
+        shells = []
+        for n in range(count):
+            axis = 0 if n % 2 == 0 else 2
+            others = [k for k in range(3) if k != axis]
+            origin = [0, 3 * (n // 2), 0]
+            origin[axis] = 4
+
+            def corners(along, u, v):
+                spans = dict(zip([axis, *others], (along, u, v)))
+                return [tuple(origin[k] + spans[k][end] for k in range(3)) for end in (0, 1)]
+            for wall in (((-0.3, -0.02), (-0.3, 1.3), (-0.3, 1.3)), ((0, 2), (-0.3, -0.02), (-0.3, 1.3)), ((0, 2), (1.02, 1.3), (-0.3, 1.3)),
+                         ((0, 2), (0, 1), (-0.3, -0.02)), ((0, 2), (0, 1), (1.02, 1.3))):
+                shells.append(corners(*wall))
+            self.write(f"pegs/peg{n}.obj", box(*corners((0.05, 1.5 + 0.01 * n), (0.02, 0.98), (0.02, 0.98))))
+        text = ""
+        for k, shell in enumerate(shells):
+            for line in box(*shell).splitlines():
+                words = line.split()
+                text += " ".join([words[0], *(str(int(w) + 8 * k) for w in words[1:])] if words[0] == "f" else words) + "\n"
+        self.write("pegs/body.obj", text)
+
+    def test_planners_prefer_what_the_objective_likes(self):
+        self.write_pegs(6)
+        for planner in {"ndbg", "state_based", "blocking", "progressive"} & self.types:
+            costs = []
+            for weight in (0, 1):
+                done = self.run_program("plan", "pegs", "-o", "out", *self.QUICK, "--sequence-planner", planner,
+                                        "--set", f"objective=[{{type: directions, weight: {weight}}}]")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                costs.append(self.read_plan("out")["objective"]["checks"][0]["cost"])
+            self.assertEqual(costs, [5, 1], planner)
 
     def test_a_verdict_that_differs_makes_the_plan_invalid(self):
         self.plan_with("[directions]", "out")
