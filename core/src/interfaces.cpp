@@ -33,6 +33,16 @@ StepVerdict StepCheck::judge_plan(std::span<const StepQuestion> /*operations*/, 
   return {};
 }
 
+DisassemblyStep step_of(const Removal& removal) {
+  const AttemptResult& answer = *removal.attempt;
+  DisassemblyStep step;
+  step.parts = removal.parts;
+  step.path = std::make_shared<const Path>(answer.path());
+  step.placement = answer.attempt.goal.placement;
+  step.released = answer.out;
+  return step;
+}
+
 std::vector<std::vector<PlacedPart>> whole_assembly(const Assembly& assembly) {
   std::vector<PlacedPart> all;
   for (const Part& part : assembly.parts) all.push_back({part.id, Pose{}});

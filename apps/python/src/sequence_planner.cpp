@@ -129,13 +129,9 @@ class SequenceView {
     if (!is_success(result.result.outcome()))
       throw py::value_error(fmt::format("remove() takes an answer that is a success, this one is '{}'",
                                         to_string(result.result.outcome())));
-    DisassemblyStep step;
-    step.parts = ids_of(result.attempt.moving);
-    step.path = std::make_shared<const Path>(result.path());
-    step.placement = result.attempt.goal.placement;
-    step.released = result.out;
+    removals_.push_back({ids_of(result.attempt.moving), &result});
+    DisassemblyStep step = step_of(removals_.back());
     left_ = without(left_, step.leaving());
-    removals_.push_back({step.parts, &result});
     disassembly_.add(std::move(step));
     py::gil_scoped_release release;
     observer_->removed(removals_.back(), left_.size());
@@ -184,8 +180,8 @@ SequenceResult result_of(const py::object& returned, const SequenceView& view) {
                                      answer.attempt.moving.size() == 1 ? answer.result.best_pose : std::vector<Pose>{},
                                      answer.result.message, answer.certificate});
     }
-  const bool together =
-      std::any_of(view.groups().begin(), view.groups().end(), [](const auto& g) { return g.size() > 1; });
+  const std::vector<std::vector<PartId>> groups = view.groups();
+  const bool together = std::any_of(groups.begin(), groups.end(), [](const auto& g) { return g.size() > 1; });
   if (!together) {
     result.outcome = Outcome::solved;
     result.unsolved.clear();

@@ -20,6 +20,10 @@ struct Removal {
   std::string planner{};  ///< id of the sequence planner that proposed the path; empty: the one of the run
 };
 
+/// The removal as a step of a disassembly: which parts move along which path, and which of them leave. What its search
+/// has found out is added by the engine. @throws std::logic_error when the answer is no removal.
+DISMANTLE_API DisassemblyStep step_of(const Removal& removal);
+
 /// Result of a sequence planner.
 struct SequenceResult {
   /// solved: every group is one part or is kept together by constraints, or the target is out.

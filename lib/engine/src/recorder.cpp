@@ -109,11 +109,7 @@ void Recorder::check_constraints(const Removal& removal) const {
 
 DisassemblyStep Recorder::to_step(const Removal& removal) const {
   const AttemptResult& answer = *removal.attempt;
-  DisassemblyStep step;
-  step.parts = removal.parts;
-  step.path = std::make_shared<const Path>(answer.path());
-  step.placement = answer.attempt.goal.placement;
-  step.released = answer.out;
+  DisassemblyStep step = step_of(removal);
   step.max_penetration = answer.max_penetration;
   step.seconds = answer.seconds;
   step.depth = answer.result.depth;

@@ -63,8 +63,7 @@ class ShallowOracle final : public PathOracle {
 class Links final : public SequenceObserver {
  public:
   Links(const ChainParams& params, const std::vector<std::shared_ptr<SequencePlanner>>& planners,
-        const SequenceQuery& query, PathOracle& oracle,
-        SequenceObserver& observer, RunContext& context)
+        const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer, RunContext& context)
       : params_(params),
         planners_(planners),
         query_(query),
@@ -78,13 +77,7 @@ class Links final : public SequenceObserver {
     Removal named = removal;
     if (named.planner.empty()) named.planner = params_.of[running_].type();
     observer_.removed(named, parts_left);
-    const AttemptResult& answer = *removal.attempt;
-    DisassemblyStep step;
-    step.parts = removal.parts;
-    step.path = std::make_shared<const Path>(answer.path());
-    step.placement = answer.attempt.goal.placement;
-    step.released = answer.out;
-    disassembly_.add(std::move(step));
+    disassembly_.add(step_of(removal));
     all_.removals.push_back(std::move(named));
   }
 
@@ -214,6 +207,7 @@ class Links final : public SequenceObserver {
 }  // namespace
 
 Chain::Chain(const ChainParams& params) : params_(params), traits_{true, true, true, false} {
+  if (params_.of.empty()) throw std::invalid_argument("a chain has at least one planner");
   for (const auto& ref : params_.of) {
     const auto planner = planners_.emplace_back(ref.create());
     const SequencePlannerTraits one = planner->traits();
@@ -222,7 +216,8 @@ Chain::Chain(const ChainParams& params) : params_(params), traits_{true, true, t
                                   "arrangement than the assembled one");
     if (planners_.size() == 1) traits_.any_start = one.any_start;
     traits_.keeps_constraints = traits_.keeps_constraints && one.keeps_constraints;
-    traits_.follows_objective = traits_.follows_objective && one.follows_objective;
+    // What is forced has no choice between removals.
+    traits_.follows_objective = traits_.follows_objective && (one.follows_objective || one.forces);
   }
 }
 

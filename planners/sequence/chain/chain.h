@@ -23,7 +23,7 @@ struct ChainParams {
 /// the planners before it get the groups that this has made, with shallow searches; then it goes on.
 class Chain final : public SequencePlanner {
  public:
-  /// @throws std::invalid_argument when a later planner does not start from any arrangement.
+  /// @throws std::invalid_argument when there is no planner, or a later one does not start from any arrangement.
   explicit Chain(const ChainParams& params);
   SequencePlannerTraits traits() const noexcept override { return traits_; }
   SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,

@@ -83,6 +83,25 @@ TEST(Chain, OneThatNeedsTheWholeAssemblyIsOnlyAskedOnce) {
   EXPECT_THROW(run_chain(fake::row(3), {second, first}), std::invalid_argument);
 }
 
+TEST(Chain, HasAtLeastOnePlanner) { EXPECT_THROW(Chain(ChainParams{}), std::invalid_argument); }
+
+/// The planners after the first must not hide what it did wrong.
+TEST(Chain, AClaimOfSuccessThatIsNoneEndsTheRun) {
+  class Claims final : public SequencePlanner {
+   public:
+    SequencePlannerTraits traits() const noexcept override { return {.any_start = true}; }
+    SequenceResult plan(const SequenceQuery&, PathOracle&, SequenceObserver&, RunContext&) override {
+      SequenceResult result;
+      result.outcome = Outcome::solved;
+      return result;
+    }
+  };
+  const auto second = std::make_shared<Some>(9, true);
+  const RunResult r = run_chain(fake::row(3), {std::make_shared<Claims>(), second});
+  EXPECT_EQ(r.outcome, Outcome::crashed);
+  EXPECT_TRUE(second->asked.empty());
+}
+
 TEST(Chain, ReasonsAreTheLatestAndOnlyOfPartsThatAreLeft) {
   const auto first = std::make_shared<Some>(1, true), second = std::make_shared<Some>(0, true);
   const RunResult r = run_chain(fake::row(4), {first, second});

@@ -59,7 +59,8 @@ struct RunOptions {
   LayoutOptions layout;  ///< used when there is a transfer planner
   std::uint64_t seed = 1;
   Constraints constraints;
-  /// As SequenceQuery::start; empty: one group of all parts as assembled.
+  /// As SequenceQuery::start; empty: one group of all parts as assembled. Only the disassembly of a run from another
+  /// start is of use: a plan file begins with the whole assembly.
   std::vector<std::vector<PlacedPart>> start{};
   /// A disassembly of the same assembly to go on from: its steps are verified again and recorded before the sequence
   /// planner starts. Not together with `start`.
