@@ -1,5 +1,6 @@
 // Key functions of the interfaces: their type information lives here once, so that a plugin's object is
 // recognised across shared libraries.
+#include <algorithm>
 #include <stdexcept>
 
 #include "dismantle/importer.h"
@@ -24,6 +25,24 @@ PathOracle::~PathOracle() = default;
 const Certificate* PathOracle::prove(const SeparationQuestion& /*question*/, const RunContext& /*context*/) {
   return nullptr;
 }
+std::optional<std::vector<PartId>> PathOracle::obstacles(const Attempt& attempt, const Path& path,
+                                                         RunContext& context) {
+  Attempt rest = attempt;
+  std::vector<PartId> found;
+  for (;;) {
+    const AttemptResult& answer = propose(rest, path, context);
+    if (is_success(answer.result.outcome())) break;
+    const std::vector<PartId>& blocked_by = answer.result.blocked_by;
+    const std::size_t before = rest.fixed.size();
+    std::erase_if(rest.fixed, [&](const PlacedPart& p) {
+      return std::find(blocked_by.begin(), blocked_by.end(), p.part) != blocked_by.end();
+    });
+    if (rest.fixed.size() == before || context.should_stop()) return std::nullopt;
+    found.insert(found.end(), blocked_by.begin(), blocked_by.end());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
 ForcingOracle::~ForcingOracle() = default;
 TransferPlanner::~TransferPlanner() = default;
 SequenceObserver::~SequenceObserver() = default;
@@ -40,6 +59,7 @@ DisassemblyStep step_of(const Removal& removal) {
   step.path = std::make_shared<const Path>(answer.path());
   step.placement = answer.attempt.goal.placement;
   step.released = answer.out;
+  step.up = removal.up;
   return step;
 }
 

@@ -13,7 +13,9 @@
 #include "dismantle/contact_class.h"
 #include "dismantle/mesh.h"
 #include "dismantle/parameters.h"
+#include "dismantle/part_kind.h"
 #include "dismantle/pose.h"
+#include "dismantle/reference_step.h"
 #include "dismantle/rgba.h"
 
 namespace dismantle {
@@ -30,9 +32,16 @@ struct Part {
   std::string file;  ///< file name (not path) that it came from
   std::shared_ptr<const Mesh> mesh;
   std::shared_ptr<const Mesh> surface;
-  double volume = 0;                 ///< assembly units cubed, > 0
+  double volume = 0;                 ///< assembly units cubed, > 0 unless the part is open
   std::optional<Rgba> colour;        ///< as in its file
   std::vector<std::string> parents;  ///< assemblies in its file that contain it, outermost first
+  /// Ids, unique in the assembly, of the uses of products that contain the part, outermost first; the last one is the
+  /// product whose body it is. Empty: its file has no products.
+  std::vector<std::string> instances{};
+  std::string product{};            ///< name of the product whose body it is; empty: not known
+  bool open = false;                ///< the surface has a boundary and is a wall; `volume` is then an estimate, or 0
+  std::optional<double> density{};  ///< g/cm3, as its file states it
+  std::optional<PartKind> kind{};   ///< none: not looked at
 };
 
 /// From input units to assembly units: internal = scale * (input - center).
@@ -94,6 +103,7 @@ struct Assembly {
   std::vector<Part> parts;
   std::vector<ExcludedPart> excluded;
   std::vector<InitialOverlap> overlaps;  ///< sorted by (a, b); measured on the original triangles
+  std::vector<ReferenceStep> reference_order{};  ///< how its author builds it, if the file says so; ids of parts
 
   /// InitialOverlap::allowed() of the pair; 0 if it has no entry.
   double initial_overlap(PartId a, PartId b) const {

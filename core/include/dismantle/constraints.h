@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,11 +13,19 @@
 
 namespace dismantle {
 
+/// A forced step that the user accepts: `part` may cut into `against`, or that into it, up to this depth.
+struct AcceptedForce {
+  PartId part = 0, against = 0;
+  std::string as;    ///< what it is: "snap", "press", ...
+  double depth = 0;  ///< assembly units, > 0
+};
+
 /// Parts by id; the lists are in no particular order.
 struct Constraints {
   std::vector<PartId> base;                       ///< never moved, except with everything else
   std::vector<std::vector<PartId>> together;      ///< each of these moves as one and is not taken apart
   std::vector<std::pair<PartId, PartId>> before;  ///< (a, b): b leaves only after a has left
+  std::vector<AcceptedForce> accept{};            ///< no constraint on the order
   std::optional<PartId> target;                   ///< done as soon as this part is out; with as little work as is known
   bool empty() const { return base.empty() && together.empty() && before.empty() && !target; }
 };

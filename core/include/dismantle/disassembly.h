@@ -38,6 +38,7 @@ struct DISMANTLE_API DisassemblyStep {
   std::string planner{};             ///< id of the planner that found the path
   std::vector<PartId> contacts{};    ///< parts touched along the path
   std::optional<ForcedCut> forced{};
+  std::optional<Eigen::Vector3d> up{};  ///< unit; how the assembly lies during the step; none: as Objective::up
 
   /// Does `part`, which moves, leave its group in this step?
   bool leaves(PartId part) const { return !placement && (!released || *released == part); }

@@ -9,6 +9,7 @@
 
 #include "dismantle/export.h"
 #include "dismantle/mesh.h"
+#include "dismantle/reference_step.h"
 #include "dismantle/rgba.h"
 #include "dismantle/run_context.h"
 
@@ -26,6 +27,11 @@ struct RawPart {
   /// Of a part with a `problem`: the file itself says that it is no part of the assembly (hidden, support, annotation).
   /// That is a note. All other problems are parts that the plan lacks: a warning, exit status 1.
   bool by_meaning{};
+  /// Ids, unique in the file, of the uses of products that contain it, outermost first; the last one is the product
+  /// whose body it is. Empty: the format has no products.
+  std::vector<std::string> instances{};
+  std::string product{};            ///< name of that product
+  std::optional<double> density{};  ///< g/cm3, if the file states it
 };
 
 /// Reads files of some formats into raw parts.
@@ -41,6 +47,9 @@ class DISMANTLE_API Importer {
   /// is left away in silence. Warnings go to the context's log; the caller counts them as findings about the input.
   /// @throws InputError naming the file and what is wrong with it. @throws Error when `context` wants to stop.
   virtual std::vector<RawPart> read(const std::filesystem::path& file, const RunContext& context) = 0;
+  /// The order in which the file's author builds the assembly: indices into the list that `read` returns. Empty: the
+  /// file states none. Called after `read` of the same file. @throws as read().
+  virtual std::vector<ReferenceStep> reference_order(const std::filesystem::path& file, const RunContext& context);
   /// Other files that `read` opens for their geometry, because `file` refers to them: buffers, external references.
   /// Only files that may_read_referenced() allows. Never throws for broken files.
   virtual std::vector<std::filesystem::path> referenced_files(const std::filesystem::path& file) const;

@@ -115,6 +115,10 @@ class DISMANTLE_API PathOracle {
   /// columns are in the same, ascending order. Returns `solved` if the path is valid and ends at the goal, otherwise
   /// `exhausted` with the blocking part and the reason.
   virtual const AttemptResult& propose(const Attempt& attempt, const Path& path, RunContext& context) = 0;
+  /// Which of `attempt.fixed` have to be gone for this path to be valid and to end at the goal? Ascending; empty: it is
+  /// valid as it is. None: no set of them helps, or `context` wants to stop. As propose(), which this calls until it
+  /// accepts: a part that is named was in the way when the parts named before it were gone.
+  virtual std::optional<std::vector<PartId>> obstacles(const Attempt& attempt, const Path& path, RunContext& context);
   virtual OracleCounts counts() const = 0;
   /// Proof that these parts, as assembled, cannot be separated; nullptr if the provers of that effort find none.
   /// Answers are remembered, live as long as the oracle, and depend only on the question. May be called from several

@@ -15,6 +15,7 @@
 #include "dismantle/flexible.h"
 #include "dismantle/outcome.h"
 #include "dismantle/param_value.h"
+#include "dismantle/part_kind.h"
 #include "dismantle/pose.h"
 #include "dismantle/step_note.h"
 
@@ -35,6 +36,7 @@ struct PlanForced {
   std::string reason;                            ///< why no verified path is known
   std::optional<std::size_t> certificate{};      ///< index into Plan::certificates: proof that there is none
   bool lower_bound = false;                      ///< time ran out while measuring: the true depth is at least `depth`
+  std::string accepted{};                        ///< the user accepts it as this ("snap", "press"); empty: not accepted
 };
 
 /// A pair of parts that a step moves relative to each other and whose assembled overlap is large enough to report.
@@ -86,6 +88,8 @@ struct PlanObjective {
   std::vector<PlanObjectiveItem> checks;          ///< empty: the plan was not judged
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< how the assembly lies; unit
   double cost = 0;                                ///< weighted sum over all steps and checks
+  /// No order of what was asked for costs less: a proved bound. None: not known. Equal to `cost`: the order is optimal.
+  std::optional<double> least_cost{};
   bool empty() const { return checks.empty(); }
 };
 
@@ -110,6 +114,7 @@ struct PlanStep {
   /// rule (b), and `max_penetration` has no meaning.
   std::optional<PlanForced> forced{};
   std::vector<PlanStepOverlap> overlaps{};  ///< disassembly steps
+  std::optional<Eigen::Vector3d> up{};      ///< unit; how the assembly lies during the step; none: as PlanObjective::up
   /// Disassembly steps: what the objective says of the step as an assembly operation, which is the step backwards.
   std::vector<PlanVerdict> checks{};
 };
@@ -144,6 +149,26 @@ struct PlanPart {
   std::optional<Rgba> colour{};        ///< opaque
   std::vector<std::string> parents{};  ///< assemblies in its file that contain it, outermost first
   std::optional<Flexible> flexible{};  ///< none: rigid
+  std::string product{};               ///< name of the product in its file whose body it is; empty: not known
+  bool open = false;                   ///< the surface is not closed: a wall
+  std::optional<PartKind> kind{};      ///< none: not looked at
+};
+
+/// A product of the file with several bodies, and how it was read.
+struct PlanComponent {
+  std::string name;                ///< unique in the plan
+  std::string product;             ///< equal for all uses of one product
+  std::vector<std::string> parts;  ///< its bodies
+  bool kept = true;                ///< as one unit; false: its parts are planned one by one
+  std::string reason;              ///< of this reading
+};
+
+/// A ReferenceStep with the names of the parts.
+struct PlanReferenceStep {
+  unsigned step = 0;
+  std::vector<std::string> parts;
+  std::string group;
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
 };
 
 /// Two parts that overlap when assembled.
@@ -174,6 +199,8 @@ struct PlanAssembly {
   std::vector<PlanPart> parts;
   std::vector<PlanExcluded> excluded;
   std::vector<PlanOverlap> overlaps;
+  std::vector<PlanComponent> components{};
+  std::vector<PlanReferenceStep> reference_order{};  ///< how the file's author builds it; empty: the file does not say
 };
 
 /// What a plan was asked for; by default the whole assembly, each part by itself.

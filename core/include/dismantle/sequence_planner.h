@@ -1,7 +1,9 @@
 /// Sequence planners: in which order do the parts come out?
 #pragma once
 
+#include <Eigen/Core>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +20,7 @@ struct Removal {
   std::vector<PartId> parts;  ///< parts that moved, ascending, as Path columns
   const AttemptResult* attempt = nullptr;
   std::string planner{};  ///< id of the sequence planner that proposed the path; empty: the one of the run
+  std::optional<Eigen::Vector3d> up{};  ///< unit; how the assembly lies during the step; none: as Objective::up
 };
 
 /// The removal as a step of a disassembly: which parts move along which path, and which of them leave. What its search
@@ -32,6 +35,8 @@ struct SequenceResult {
   std::vector<PartId> remaining;         ///< parts never removed (one when solved)
   std::vector<Unsolved> unsolved;        ///< why the others are still there; empty when solved
   std::map<std::string, double> counts;  ///< the planner's own counts, by documented names
+  /// No order of what was asked for has a lower cost by the objective: a proved bound. None: not known.
+  std::optional<double> least_cost{};
   std::vector<const Certificate*> proofs{};  ///< of the oracle: about parts that have left since, for the plan to state
 };
 

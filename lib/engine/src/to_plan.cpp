@@ -30,6 +30,12 @@ void state_flexible(const FlexiblePart& flexible, PlanAssembly& assembly) {
       o.flexible = o.declared == std::max(o.depth, flexible.depth);
 }
 
+std::vector<std::string> names_of(const std::vector<PartId>& parts, const Assembly& assembly) {
+  std::vector<std::string> names;
+  for (const PartId id : parts) names.push_back(assembly.parts.at(id).name);
+  return names;
+}
+
 PlanAssembly to_plan(const Assembly& assembly, const std::vector<FlexiblePart>& flexible) {
   PlanAssembly a;
   a.source = assembly.source;
@@ -41,21 +47,17 @@ PlanAssembly to_plan(const Assembly& assembly, const std::vector<FlexiblePart>& 
   a.import_params = assembly.import_params;
   a.unit = assembly.unit;
   for (const auto& part : assembly.parts) {
-    a.parts.push_back({part.id, part.name, part.file, part.colour, part.parents, {}});
+    a.parts.push_back({part.id, part.name, part.file, part.colour, part.parents, {}, part.product, part.open, part.kind});
     if (part.colour) a.parts.back().colour->a = 255;
   }
+  for (const ReferenceStep& s : assembly.reference_order)
+    a.reference_order.push_back({s.step, names_of(s.parts, assembly), s.group, s.up});
   for (const auto& excluded : assembly.excluded) a.excluded.push_back({excluded.name, excluded.reason, !excluded.by_choice});
   for (const auto& o : assembly.overlaps)
     a.overlaps.push_back({assembly.parts.at(o.a).name, assembly.parts.at(o.b).name, o.depth,
                           place_in_input(o.place, assembly.normalization), o.declared, false});
   for (const FlexiblePart& f : flexible) state_flexible(f, a);
   return a;
-}
-
-std::vector<std::string> names_of(const std::vector<PartId>& parts, const Assembly& assembly) {
-  std::vector<std::string> names;
-  for (const PartId id : parts) names.push_back(assembly.parts.at(id).name);
-  return names;
 }
 
 PlanAsked asked_of(const RunOptions& options, const Assembly& assembly) {
@@ -128,6 +130,7 @@ PlanStep to_plan(const DisassemblyStep& step, Plan& plan, const Assembly& assemb
   written.depth = step.depth;
   written.contacts = names_of(step.contacts, assembly);
   if (step.forced) written.forced = to_plan(*step.forced, plan, assembly);
+  written.up = step.up;
   return written;
 }
 

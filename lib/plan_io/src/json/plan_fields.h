@@ -74,6 +74,7 @@ void fields(auto& v, Is<PlanForced> auto& f) {
   v("reason", f.reason);
   v("certificate", f.certificate, if_set);
   v("lower_bound", f.lower_bound, if_set);
+  v("accepted", f.accepted, if_set);
 }
 
 /// A JSON object of a third party, as text.
@@ -115,6 +116,7 @@ void fields(auto& v, Is<PlanObjectiveItem> auto& item) {
 void fields(auto& v, Is<PlanObjective> auto& o) {
   v("up", o.up, required, unit_vector);
   v("cost", o.cost, required, from_zero);
+  v("least_cost", o.least_cost, if_set, from_zero);
   v("checks", o.checks);
 }
 
@@ -136,6 +138,7 @@ void step_fields(auto& v, Is<PlanStep> auto& s, StepKind kind) {
   v("after", s.after, assembly ? unknown : optional);
   v("layer", s.layer, assembly ? unknown : optional);
   v("overlaps", s.overlaps, assembly ? unknown : if_set);
+  v("up", s.up, assembly ? unknown : if_set, unit_vector);
   v("checks", s.checks, assembly ? unknown : if_set);
   v("forced", s.forced, if_set);
 }
@@ -171,6 +174,14 @@ void fields(auto& v, Is<PlanCertificate> auto& c) {
   v("text", c.text);
 }
 
+void fields(auto& v, Is<PartKind> auto& k) {
+  v("kind", k.kind, required, name);
+  v("size", k.size, if_set);
+  v("confidence", k.confidence, required, from_zero_to(1));
+  v("reason", k.reason, if_set);
+  v("stated", k.stated, if_set);
+}
+
 void fields(auto& v, Is<PlanPart> auto& p) {
   v("id", p.id);
   v("name", p.name, required, name);
@@ -178,6 +189,24 @@ void fields(auto& v, Is<PlanPart> auto& p) {
   v("color", p.colour, if_set, choice(rgba_from_hex, "a colour as in \"#rrggbb\""));
   v("flexible", p.flexible, if_set, enumerator(Flexible::loop, "\"declared\", \"coil\" or \"loop\""));
   v("parents", p.parents, if_set);
+  v("product", p.product, if_set);
+  v("open", p.open, if_set);
+  v.inlined(p.kind);
+}
+
+void fields(auto& v, Is<PlanComponent> auto& c) {
+  v("name", c.name, required, name);
+  v("product", c.product);
+  v("parts", c.parts, required, group);
+  v("kept", c.kept);
+  v("reason", c.reason);
+}
+
+void fields(auto& v, Is<PlanReferenceStep> auto& s) {
+  v("step", s.step);
+  v("parts", s.parts, required, group);
+  v("group", s.group);
+  v("up", s.up, required, unit_vector);
 }
 
 void fields(auto& v, Is<OverlapPlace> auto& p) {
@@ -232,6 +261,8 @@ void fields(auto& v, Is<PlanAssembly> auto& a) {
   v("repair", a.repair, if_set);
   v("unit", a.unit, if_set, name);
   v("import", a.import_params, if_set);
+  v("components", a.components, if_set);
+  v("reference_order", a.reference_order, if_set);
 }
 
 void fields(auto& v, Is<Plan> auto& p) {
