@@ -1,36 +1,26 @@
 #include "dismantle/outcome.h"
 
 #include <array>
-#include <utility>
 
 namespace dismantle {
 
 namespace {
 
-constexpr std::array<std::pair<Outcome, std::string_view>, 10> kNames{{
-    {Outcome::solved, "solved"},
-    {Outcome::start_is_goal, "start_is_goal"},
-    {Outcome::timeout, "timeout"},
-    {Outcome::depth_limit, "depth_limit"},
-    {Outcome::exhausted, "exhausted"},
-    {Outcome::infeasible, "infeasible"},
-    {Outcome::invalid_start, "invalid_start"},
-    {Outcome::cancelled, "cancelled"},
-    {Outcome::unsupported, "unsupported"},
-    {Outcome::crashed, "crashed"},
-}};
+/// By Outcome.
+constexpr std::array<std::string_view, 10> kNames{"solved",     "start_is_goal", "timeout",   "depth_limit", "exhausted",
+                                                  "infeasible", "invalid_start", "cancelled", "unsupported", "crashed"};
+static_assert(static_cast<std::size_t>(Outcome::crashed) + 1 == kNames.size());
 
 }  // namespace
 
 std::string_view to_string(Outcome o) {
-  for (const auto& [value, name] : kNames)
-    if (value == o) return name;
-  return "unknown";
+  const auto i = static_cast<std::size_t>(o);
+  return i < kNames.size() ? kNames[i] : "unknown";
 }
 
 std::optional<Outcome> outcome_from_string(std::string_view text) {
-  for (const auto& [value, name] : kNames)
-    if (name == text) return value;
+  for (std::size_t i = 0; i < kNames.size(); ++i)
+    if (kNames[i] == text) return static_cast<Outcome>(i);
   return std::nullopt;
 }
 

@@ -1,6 +1,7 @@
 #include "dismantle/parameters.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -10,25 +11,10 @@
 namespace dismantle {
 namespace {
 
-const char* noun(ParamType type) {
-  switch (type) {
-    case ParamType::boolean:
-      return "true or false";
-    case ParamType::integer:
-      return "an integer";
-    case ParamType::number:
-      return "a number";
-    case ParamType::text:
-      return "text";
-    case ParamType::choice:
-      return "one of its choices";
-    case ParamType::plugin:
-      return "a choice of a plugin";
-    case ParamType::plugins:
-      return "a list of choices of plugins";
-  }
-  return "a value";
-}
+/// By ParamType.
+constexpr std::array kNouns{"true or false",      "an integer",           "a number",                    "text",
+                            "one of its choices", "a choice of a plugin", "a list of choices of plugins"};
+const char* noun(ParamType type) { return kNouns.at(static_cast<std::size_t>(type)); }
 
 /// What the user gave, for a message: text in quotes, numbers with their unit.
 std::string shown(const ParamValue& value, const std::string& unit) {

@@ -77,22 +77,10 @@ void PathResult::fail(Outcome outcome, std::string why) {
 }
 
 SearchStatus status_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::solved:
-    case Outcome::start_is_goal:
-      return SearchStatus::solved;
-    case Outcome::depth_limit:
-    case Outcome::exhausted:
-    case Outcome::infeasible:
-      return SearchStatus::exhausted;
-    case Outcome::timeout:
-    case Outcome::invalid_start:
-    case Outcome::cancelled:
-    case Outcome::unsupported:
-    case Outcome::crashed:
-      break;
-  }
-  return SearchStatus::failed;
+  if (is_success(outcome)) return SearchStatus::solved;
+  const bool nothing_left =
+      outcome == Outcome::depth_limit || outcome == Outcome::exhausted || outcome == Outcome::infeasible;
+  return nothing_left ? SearchStatus::exhausted : SearchStatus::failed;
 }
 
 PathSearch::~PathSearch() = default;
