@@ -34,6 +34,7 @@ int verify(const Verify& options) {
                   {"steps", plan.disassembly.size()},
                   {"max_penetration", check.max_penetration},
                   {"forced", check.forced},
+                  {"accepted", check.accepted},
                   {"certificates", check.certificates},
                   {"checked_independently", check.certificates - check.checked_by_prover},
                   {"checked_by_prover", check.checked_by_prover},

@@ -57,6 +57,7 @@ nlohmann::ordered_json result_json(const RunResult& result, int status, const fs
                                 {"parts", parts},
                                 {"steps", result.plan.disassembly.size()},
                                 {"forced", result.plan.forced_steps()},
+                                {"accepted", accepted_steps(result.plan)},
                                 {"removed", parts - left},
                                 {"left", left},
                                 {"excluded", result.plan.assembly.excluded.size()},

@@ -21,7 +21,8 @@ std::string check_text(const Plan& plan, const PlanCheck& check) {
     if (bad)
       out += "NOT VALID\n";
     else if (step.forced)
-      out += fmt::format("FORCED: {}; measured again\n", forced_text(plan, *step.forced));
+      out += fmt::format("{}: {}; measured again: {}\n", step.forced->accepted.empty() ? "FORCED" : "accepted",
+                         forced_text(plan, *step.forced), length_text(plan, check.forced_depth.at(i) / scale));
     else if (i < check.step_penetration.size())
       out += fmt::format("valid, penetration <= {}\n{}", length_text(plan, check.step_penetration[i] / scale),
                          overlaps_text(plan, step));

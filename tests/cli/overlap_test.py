@@ -48,6 +48,40 @@ class Overlap(CliTest):
         done = self.run_program("verify", "false.json", status=1)
         self.assertIn("there is no such place", done.stderr + done.stdout)
 
+    def test_what_the_user_accepts_is_complete_and_no_more_than_that(self):
+        self.run_program("sample", "part_in_solid", "-o", "in", "-q", status=0)
+        forced = self.plan("in", status=1)["disassembly"][0]["forced"]
+        part, against = forced["pair"]
+        for share, other, status in ((1.01, against, 0), (0.9, against, 1)):
+            self.write("accept.yaml", "schema: 1\nconstraints:\n  accept: [{part: %s, against: %s, as: snap, depth: %r}]\n"
+                       % (part, other, share * forced["depth"]))
+            plan = self.plan("in", "-c", "accept.yaml", status=status)
+            self.assertEqual(plan["status"], "forced" if status else "complete")
+            self.assertEqual(plan["disassembly"][0]["forced"].get("accepted"), None if status else "snap")
+            self.run_program("verify", "out/plan.json", "-q", status=status)
+            if status == 0:
+                self.assertIn("accepted as snap", self.run_program("explain", "out/plan.json").stdout)
+                self.assertNotIn("color=red", self.read("out", "precedence.dot"))
+
+    def test_a_depth_that_is_stated_too_small_is_refused(self):
+        self.run_program("sample", "part_in_solid", "-o", "in", "-q", status=0)
+        plan = self.plan("in", status=1)
+        true = plan["disassembly"][0]["forced"]["depth"]
+        for share, wrong in ((0.95, False), (0.5, True), (1e-9, True)):
+            for step in plan["disassembly"] + plan["assembly_steps"]:
+                step["forced"]["depth"] = share * true
+            self.write("said.json", json.dumps(plan))
+            done = self.run_program("verify", "said.json", status=1)
+            self.assertEqual("NOT VALID" in done.stdout, wrong, share)
+
+    def test_an_acceptance_says_all_of_it(self):
+        self.run_program("sample", "part_in_solid", "-o", "in", "-q", status=0)
+        for entry in ("{part: block, against: insert, depth: 1}", "{part: block, against: insert, as: snap, depth: 0}",
+                      "{part: block, against: block, as: snap, depth: 1}", "block"):
+            self.write("wrong.yaml", "schema: 1\nconstraints:\n  accept: [%s]\n" % entry)
+            done = self.run_program("plan", "in", "-c", "wrong.yaml", "-o", "out", status=2)
+            self.assertIn("wrong.yaml:3:12: error: constraints.accept must be a list of", done.stderr)
+
     def test_a_forced_step_names_pair_depth_and_place_everywhere(self):
         self.run_program("sample", "part_in_solid", "-o", "in", "-q", status=0)
         done = self.run_program("plan", "in", "-o", "out", "--threads", "1", status=1)

@@ -1,7 +1,7 @@
 // The plan as the page shows it. What is out when, the exploded view and the reasons come with the page; nothing of it is computed here.
 import {byOrder, given, STAYS, TROUBLE} from './plan/colours.js';
 import {readAnimation, stepAt} from './plan/animation.js';
-import {sizeOf} from './plan/words.js';
+import {isBad, sizeOf} from './plan/words.js';
 
 const FADE = 0.3;  // s
 
@@ -19,7 +19,7 @@ export class Model {
     this.offsets = parts.map((_, i) => view.offsets.subarray(3 * i, 3 * i + 3));
     this.unsolved = new Map(plan.unsolved.map(u => [this.index.get(u.part), u]));
     this.reach = new Map(view.reasons.flatMap(reason => reason.parts.map(p => [p.part, p])));
-    const forced = plan.disassembly.filter(s => s.forced).flatMap(s => s.moves.map(m => this.index.get(m.part)));
+    const forced = plan.disassembly.filter(isBad).flatMap(s => s.moves.map(m => this.index.get(m.part)));
     this.forced = new Set(forced);
     this.remaining = new Set(plan.remaining.map(name => this.index.get(name)));
     this.hasColours = plan.assembly.parts.some(p => given(p) !== null);

@@ -100,7 +100,7 @@ class ContentWriter {
     content_.facts.emplace_back("made by", plan_.generator_name + " " + plan_.generator_version);
     std::string forced;
     for (const PlanStep& step : plan_.disassembly)
-      if (step.forced) forced += fmt::format("{}{}", forced.empty() ? "" : ", ", step.step);
+      if (step.forced && step.forced->accepted.empty()) forced += fmt::format("{}{}", forced.empty() ? "" : ", ", step.step);
     if (!forced.empty())
       content_.warnings.push_back(
           fmt::format("Not verified: in these steps of the plan parts cut into others: {}.", forced));
@@ -191,7 +191,10 @@ class ContentWriter {
       page.facts.emplace_back("of", names_of(chapter.parts));
     for (const PlanStep& s : plan_.disassembly) {
       if (s.step != step.plan_step) continue;
-      if (s.forced) page.warning = fmt::format("Not verified: {}.", forced_text(plan_, *s.forced));
+      if (s.forced && s.forced->accepted.empty())
+        page.warning = fmt::format("Not verified: {}.", forced_text(plan_, *s.forced));
+      else if (s.forced)
+        page.facts.emplace_back(s.forced->accepted, forced_text(plan_, *s.forced));
       if (!s.contacts.empty()) page.facts.emplace_back("touches", text::joined(s.contacts));
       for (const PlanVerdict& v : s.checks)
         for (const StepNote& note : v.notes) page.facts.emplace_back("note", note.text);

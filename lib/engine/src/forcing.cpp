@@ -89,7 +89,7 @@ const AttemptResult& Forcing::propose_forced(const Attempt& attempt, const Path&
   if (!deepest || !deepest->proved) {
     const double share = 0.03;  // a depth that is written with two digits is exact to half of the second one
     const auto found =
-        depth(moving, answer.attempt.fixed, removal.path, {verifier_.options().max_penetration, share}, context);
+        depth(moving, answer.attempt.fixed, removal.path, {0.1 * verifier_.options().max_penetration, share}, context);
     removal.cut.lower_bound = context.should_stop();
     if (found && (!deepest || found->excess() >= deepest->excess())) deepest = found;
   }

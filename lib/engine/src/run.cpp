@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "acceptance.h"
 #include "assembler.h"
 #include "deferred_simulator.h"
 #include "dismantle/engine/judgement.h"
@@ -155,6 +156,7 @@ class Run {
     if (simulator_.was_stopped()) sequence_.outcome = why_stopped(context_);
     RunResult result;
     result.plan = plan_of(recorder_.disassembly(), assembly_, options_);
+    mark_accepted(result.plan, recorder_.disassembly(), assembly_, options_.constraints, verifier_, context_);
     result.outcome = sequence_.outcome;
     explain(result);
     complete(result);
@@ -199,7 +201,7 @@ class Run {
       const auto left = open_groups(done, options_.constraints);
       if (left.empty()) {
         unsolved.clear();
-        if (result.plan.forced_steps() == 0) result.outcome = Outcome::solved;
+        if (result.plan.status == PlanStatus::complete) result.outcome = Outcome::solved;
       } else {
         if (is_success(sequence_.outcome)) {
           result.outcome = Outcome::crashed;

@@ -25,7 +25,17 @@ std::string asked_text(const Plan& plan) {
   return asked.together.empty() ? "every part came out" : "every part came out but for those that are to stay together";
 }
 
+std::string accepted_text(const Plan& plan) {
+  const std::size_t accepted = accepted_steps(plan);
+  return accepted == 0 ? "" : fmt::format(", {} with a cut that you accept", text::counted(accepted, "step"));
+}
+
 }  // namespace
+
+std::size_t accepted_steps(const Plan& plan) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      plan.disassembly, [](const PlanStep& s) { return s.forced && !s.forced->accepted.empty(); }));
+}
 
 std::string result_word(const Plan& plan) {
   return std::string(to_string(plan.succeeded()                        ? PlanStatus::complete
@@ -37,10 +47,11 @@ std::string result_text(const Plan& plan) {
   const std::string word = result_word(plan);
   switch (plan.status) {
     case PlanStatus::complete:
-      return fmt::format("{}: {}{}", word, asked_text(plan),
+      return fmt::format("{}: {}{}{}", word, asked_text(plan), accepted_text(plan),
                          plan.succeeded() ? "" : ", and some parts of the input could not be used");
     case PlanStatus::forced:
-      return fmt::format("{}: {}, in {} by force", word, asked_text(plan), text::counted(plan.forced_steps(), "step"));
+      return fmt::format("{}: {}, in {} by force", word, asked_text(plan), text::counted(plan.forced_steps() - accepted_steps(plan), "step")) +
+             accepted_text(plan);
     case PlanStatus::partial:
       break;
   }
@@ -57,12 +68,12 @@ std::string summary_text(const Plan& plan) {
                                 text::counted(plan.disassembly.size(), "step"), result_text(plan));
   const std::size_t width = text::widest_step(plan);
   const double scale = a.scale > 0 ? a.scale : 1;  // people read input units
-  std::size_t forced = 0;
+  const std::size_t forced = plan.forced_steps(), accepted = accepted_steps(plan);
   for (const auto& step : plan.disassembly) {
     if (step.forced) {
-      ++forced;
-      out += fmt::format("{:>5}  {}  {:8.2f} s  FORCED: {}\n", step.step, text::padded(text::names_of(step), width),
-                         step.seconds, forced_text(plan, *step.forced));
+      out += fmt::format("{:>5}  {}  {:8.2f} s  {}: {}\n", step.step, text::padded(text::names_of(step), width),
+                         step.seconds, step.forced->accepted.empty() ? "FORCED" : "accepted",
+                         forced_text(plan, *step.forced));
       continue;
     }
     out +=
@@ -70,9 +81,9 @@ std::string summary_text(const Plan& plan) {
                     step.seconds, length_text(plan, step.max_penetration / scale));
     out += overlaps_text(plan, step);
   }
-  if (forced > 0)
+  if (forced > accepted)
     out += fmt::format("{} forced: no verified path was found, the parts are taken out where they cut in least\n",
-                       text::counted(forced, "step"));
+                       text::counted(forced - accepted, "step"));
   if (plan.disassembly.size() > forced)
     out += fmt::format("every {}step is verified: penetration <= {} of {} allowed\n", forced > 0 ? "other " : "",
                        length_text(plan, worst / scale), length_text(plan, plan.verified_max_penetration / scale));

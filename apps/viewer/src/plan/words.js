@@ -35,9 +35,12 @@ export function number(x) {
 /** A length in input units. */
 export const lengthWords = (length, plan) => `${number(length)} ${plan.assembly.unit ?? 'input units'}`;
 
+/** Is the step forced, without the user's acceptance of what it cuts? */
+export const isBad = step => Boolean(step.forced) && !step.forced.accepted;
+
 /** Description of a forced step. */
-export const forcedWords = ({pair, depth, assembled, at, lower_bound: bound}, plan) =>
-  `${pair[0]} cuts ${bound ? 'at least ' : ''}${lengthWords(depth, plan)} into ${pair[1]} (${number(assembled)} when assembled), at (${at.map(number).join(', ')})`;
+export const forcedWords = ({pair, depth, assembled, at, lower_bound: bound, accepted}, plan) =>
+  `${pair[0]} cuts ${bound ? 'at least ' : ''}${lengthWords(depth, plan)} into ${pair[1]} (${number(assembled)} when assembled), at (${at.map(number).join(', ')})${accepted ? `, accepted as ${accepted}` : ''}`;
 
 export function seconds(s) {
   if (s < 0.0995) return `${number(Number((1000 * s).toPrecision(2)))} ms`;

@@ -1,5 +1,5 @@
 // The panel beside the scene: the plan, its result, and the lists.
-import {counted, titleOf} from '../plan/words.js';
+import {counted, isBad, titleOf} from '../plan/words.js';
 import {makeAbout} from './about.js';
 import {element} from './dom.js';
 import {makePartList} from './partlist.js';
@@ -7,7 +7,7 @@ import {makeProblems} from './problems.js';
 import {makeSteps} from './steps.js';
 
 function summary({plan, result}) {
-  const forced = plan.disassembly.filter(s => s.forced).length;
+  const forced = plan.disassembly.filter(isBad).length;
   const [word, ...words] = result.text.split(': ');
   return element('div.summary', {}, element(`span.pill.${result.word === 'complete' ? 'good' : 'bad'}`, {}, word[0].toUpperCase() + word.slice(1)),
     element('span', {}, `${counted(plan.assembly.parts.length, 'part')}, ${counted(plan.disassembly.length, 'step')}: ${words.join(': ')}`), forced > 0 ? element('span.pill.bad', {}, `${counted(forced, 'step')} not verified`) : null);

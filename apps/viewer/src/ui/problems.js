@@ -1,5 +1,5 @@
 // Parts that did not come out: the attempts, blocking parts and places, furthest pose, proof, and advice.
-import {forcedWords, lengthWords, number, outcomeTitle, seconds, sentence, share, shareOfSize} from '../plan/words.js';
+import {forcedWords, isBad, lengthWords, number, outcomeTitle, seconds, sentence, share, shareOfSize} from '../plan/words.js';
 import {element, icon} from './dom.js';
 
 const TURNED = 0.05;  // degrees; smaller rotations are not reported
@@ -86,7 +86,7 @@ function certificate(app, c) {
 export function makeProblems(app) {
   const {plan} = app.model, certificates = Array.isArray(plan.certificates) ? plan.certificates : [];
   const silent = app.model.view.untried.map(i => app.model.parts[i].name);
-  const forced = plan.disassembly.filter(s => s.forced);
+  const forced = plan.disassembly.filter(isBad);
   const {excluded} = plan.assembly;
   const count = plan.unsolved.length + certificates.length + excluded.length + forced.length;
   if (count === 0 && plan.status === 'complete') return null;

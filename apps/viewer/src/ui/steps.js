@@ -1,6 +1,6 @@
 // The list of steps: moving parts, search time, penetration. A click seeks to the step.
 import {verdictRows, verdictsOf} from '../plan/checks.js';
-import {forcedWords, lengthWords, number, seconds, share} from '../plan/words.js';
+import {forcedWords, isBad, lengthWords, number, seconds, share} from '../plan/words.js';
 import {element, swatch} from './dom.js';
 
 function facts(app, {step}) {
@@ -38,7 +38,7 @@ export function makeSteps(app) {
       const button = element('button.step', {type: 'button', title: 'Go to this step',
         onclick: () => { app.goToStep(index); if (parts.length === 1) app.select(parts[0]); }},
         element('span.count', {}, String(step.step)), colours, names,
-        step.forced ? element('span.pill.bad', {}, 'forced') : gauge,
+        step.forced ? element(`span.pill${isBad(step) ? '.bad' : ''}`, {}, isBad(step) ? 'forced' : step.forced.accepted) : gauge,
         element('span.seconds', {title: 'Time that finding the path took'}, step.seconds === undefined ? '' : seconds(step.seconds)));
       return element('li', {}, button);
     });

@@ -1,5 +1,5 @@
 // Play, pause and scrub: the bar below the scene, and a caption for the current step.
-import {clock, counted, listed, share, shareOfSize} from '../plan/words.js';
+import {clock, counted, isBad, listed, share, shareOfSize} from '../plan/words.js';
 import {element, icon, iconButton} from './dom.js';
 
 const SPEEDS = [0.5, 1, 2, 4, 8];
@@ -51,7 +51,7 @@ export function makeTransport(app) {
     element('div.row', {}, element('div.segmented', {role: 'group', 'aria-label': 'Direction'}, modes),
       element('label.explode', {for: 'explode', title: 'Exploded view (E)'}, icon('explode'), element('span', {}, 'Explode'), explode)));
 
-  /** One block per step, in the colour of the moving part; steps with a `forced` mark are red. */
+  /** One block per step, in the colour of the moving part; steps that are forced and not accepted are red. */
   function paintStrip() {
     const ratio = Math.min(2, window.devicePixelRatio), width = strip.clientWidth * ratio, height = strip.clientHeight * ratio;
     if (width === 0) return;
@@ -60,7 +60,7 @@ export function makeTransport(app) {
     const g = strip.getContext('2d'), {steps, duration} = app.line;
     for (const {step, begin, end, parts} of steps) {
       const x = begin / duration * width, w = Math.max(1, (end - begin) / duration * width);
-      g.fillStyle = step.forced ? '#e5484d' : app.model.colour(parts[0], app.colours);
+      g.fillStyle = isBad(step) ? '#e5484d' : app.model.colour(parts[0], app.colours);
       g.beginPath();
       if (w > 6 * ratio) g.roundRect(x, 0, w, height, 2 * ratio); else g.rect(x, 0, w, height);
       g.fill();
@@ -86,9 +86,9 @@ export function makeTransport(app) {
     caption.textContent = over ? endOf(app) : captionOf(app, at);
     caption.title = at < 0 ? '' : steps[at].step.moves.map(m => m.part).join(', ');
     const depth = at < 0 ? undefined : steps[at].step.max_penetration;
-    detail.textContent = depth === undefined ? '' : steps[at].step.forced ? `forced: cuts in by ${shareOfSize(steps[at].step.forced.depth, plan)} of the size`
+    detail.textContent = depth === undefined ? '' : steps[at].step.forced ? `${steps[at].step.forced.accepted || 'forced'}: cuts in by ${shareOfSize(steps[at].step.forced.depth, plan)} of the size`
       : `cuts in by at most ${share(depth, plan)} of the size`;
-    detail.classList.toggle('bad', at >= 0 && Boolean(steps[at].step.forced));
+    detail.classList.toggle('bad', at >= 0 && isBad(steps[at].step));
   }
 
   function showPlay() {

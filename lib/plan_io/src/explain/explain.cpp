@@ -126,8 +126,9 @@ Explanation explain(const Plan& plan, const ExplainSettings& settings, const std
 }
 
 std::string forced_text(const Plan& plan, const PlanForced& forced) {
-  return fmt::format("{} cuts {}{} into {} ({} when assembled)", forced.part, forced.lower_bound ? "at least " : "",
-                     length_text(plan, forced.depth), forced.other, length_text(plan, forced.assembled));
+  return fmt::format("{} cuts {}{} into {} ({} when assembled){}", forced.part, forced.lower_bound ? "at least " : "",
+                     length_text(plan, forced.depth), forced.other, length_text(plan, forced.assembled),
+                     forced.accepted.empty() ? "" : ", accepted as " + forced.accepted);
 }
 
 std::string overlaps_text(const Plan& plan, const PlanStep& step) {

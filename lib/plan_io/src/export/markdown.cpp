@@ -68,7 +68,8 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
       out += fmt::format("| {} | {}{} | {} | {} | {} | {} |{}\n", step.step, markdown_text(text::names_of(step)), what,
                          markdown_text(motion), step.layer > 0 ? steps_list(step.after) : "not recorded",
                          step.contacts.empty() ? "-" : markdown_text(text::joined(step.contacts)),
-                         step.forced ? "**forced: " + fmt::format("{:.2g}", step.forced->depth * a.scale) + "**"
+                         step.forced ? fmt::format("**{}: {:.2g}**", step.forced->accepted.empty() ? "forced" : "accepted",
+                                                   step.forced->depth * a.scale)
                                      : fmt::format("{:.2g}", step.max_penetration),
                          judged ? " " + judged_cell(step.checks) + " |" : "");
     }

@@ -24,7 +24,7 @@ std::string to_dot(const Plan& plan, const std::vector<std::pair<std::string, st
       "  node [shape=box, style=rounded, fontname=\"sans-serif\"];\n";
   std::set<std::string> forced;
   for (const PlanStep& step : plan.disassembly)
-    if (step.forced)
+    if (step.forced && step.forced->accepted.empty())
       for (const PlanMove& move : step.moves) forced.insert(move.part);
   for (const PlanPart& part : plan.assembly.parts) {
     const auto step = left_in.find(part.name);

@@ -29,11 +29,13 @@ std::string step_order_dot(const Plan& plan) {
       "digraph steps {\n"
       "  rankdir=LR;\n"
       "  node [shape=box, style=rounded, fontname=\"sans-serif\"];\n";
-  for (const PlanStep& step : plan.disassembly)
-    out += fmt::format(
-        "  s{} [label={}{}];\n", step.step,
-        dot_quoted(fmt::format("{}. {}{}", step.step, text::names_of(step), step.forced ? " (forced)" : "")),
-        step.forced ? ", color=red, fontcolor=red" : "");
+  for (const PlanStep& step : plan.disassembly) {
+    const bool accepted = step.forced && !step.forced->accepted.empty();
+    const char* mark = accepted ? " (accepted)" : step.forced ? " (forced)" : "";
+    out += fmt::format("  s{} [label={}{}];\n", step.step,
+                       dot_quoted(fmt::format("{}. {}{}", step.step, text::names_of(step), mark)),
+                       step.forced && !accepted ? ", color=red, fontcolor=red" : "");
+  }
   for (const PlanStep& step : plan.disassembly)
     for (const unsigned before : step.after) out += fmt::format("  s{} -> s{};\n", before, step.step);
   return out + "}\n";

@@ -10,6 +10,7 @@
 #include "plan/check_certificates.h"
 #include "plan/depth_statements.h"
 #include "plan/plan_state.h"
+#include "plan/violation_text.h"
 
 namespace dismantle {
 namespace {
@@ -40,6 +41,7 @@ class Checker {
   PlanCheck run() {
     check_names();
     result_.step_penetration.assign(plan_.disassembly.size(), 0);
+    result_.forced_depth.assign(plan_.disassembly.size(), 0);
     passed_.resize(plan_.disassembly.size());
     places_then_.resize(plan_.disassembly.size());
     const std::size_t total = plan_.disassembly.size() + plan_.assembly_steps.size();
@@ -57,7 +59,7 @@ class Checker {
     if (stopped()) problem("the check was stopped before its end");
     context_.progress("verify", total, total);
     result_.valid = result_.problems.empty();
-    result_.complete = result_.valid && complete && result_.forced == 0;
+    result_.complete = result_.valid && complete && result_.forced == result_.accepted;
     for (const double p : result_.step_penetration) result_.max_penetration = std::max(result_.max_penetration, p);
     return std::move(result_);
   }
@@ -99,22 +101,7 @@ class Checker {
       return true;
     }
     if (check.interrupted) return false;  // run() reports it
-    const Violation v = check.violation.value_or(Violation{});
-    const Eigen::Vector3d at = assembly_.normalization.to_input(v.point);
-    const std::string where = fmt::format("between poses {} and {}, at [{:.6g}, {:.6g}, {:.6g}] of '{}'", v.segment,
-                                          v.segment + 1, at.x(), at.y(), at.z(), state_.name(v.part));
-    if (v.uncertain)
-      problem(fmt::format("{}'{}' could not be shown to clear '{}' {}", what, state_.name(v.part), state_.name(v.other),
-                          where));
-    else if (v.elsewhere)
-      problem(fmt::format("{}'{}' penetrates '{}' by {:.4g} {} where they do not overlap when assembled, {}", what,
-                          state_.name(v.part), state_.name(v.other), v.depth / assembly_.normalization.scale,
-                          assembly_.unit.empty() ? "input units" : assembly_.unit, where));
-    else
-      problem(fmt::format("{}'{}' penetrates '{}' by {:.4g} {} ({:.4g} when assembled) {}", what, state_.name(v.part),
-                          state_.name(v.other), v.depth / assembly_.normalization.scale,
-                          assembly_.unit.empty() ? "input units" : assembly_.unit,
-                          v.allowed / assembly_.normalization.scale, where));
+    problem(what + violation_text(check.violation.value_or(Violation{}), assembly_));
     return false;
   }
 
@@ -139,7 +126,8 @@ class Checker {
       places_then_[index] = state_.place;
       if (step.forced) {
         ++result_.forced;
-        note("", depths_.wrong(*step.forced, *motion, placed(passed_[index])));
+        note("", depths_.wrong(*step.forced, *motion, placed(passed_[index]), result_.forced_depth[index]));
+        if (!step.forced->accepted.empty()) accepted_holds(*step.forced, *motion, index);
       } else {
         motion_holds(*motion, passed_[index], "", result_.step_penetration[index]);
       }
@@ -147,6 +135,14 @@ class Checker {
     }
     for (std::size_t i = 0; i < motion->moving.size(); ++i) state_.place[motion->moving[i]] = motion->path.back()[i];
     if (group != state_.groups.end()) separate_groups(step, static_cast<std::size_t>(group - state_.groups.begin()));
+  }
+
+  /// An accepted forced step is valid for all pairs but the one that it names.
+  void accepted_holds(const PlanForced& said, const StepMotion& motion, std::size_t index) {
+    ++result_.accepted;
+    Group others = passed_[index];
+    if (const auto other = state_.find(said.other)) others = without(others, {*other});
+    motion_holds(motion, others, "beside what is accepted: ", result_.step_penetration[index]);
   }
 
   std::vector<PlacedPart> placed(const Group& group) const {
@@ -205,9 +201,10 @@ class Checker {
 
   void check_end(bool complete) {
     step_ = 0;
-    if (plan_.status == PlanStatus::complete && result_.forced > 0)
-      problem("the plan says that it is complete, but some steps are forced");
-    if (plan_.status == PlanStatus::forced && (!complete || result_.forced == 0))
+    const bool forced = result_.forced > result_.accepted;
+    if (plan_.status == PlanStatus::complete && forced)
+      problem("the plan says that it is complete, but some steps are forced and not accepted");
+    if (plan_.status == PlanStatus::forced && (!complete || !forced))
       problem("the plan says that it is forced, but no step is, or some groups have several parts left");
     if (plan_.status == PlanStatus::complete && !complete)
       problem("the plan says that it is complete, but some groups have several parts left");
@@ -317,9 +314,10 @@ class Checker {
       return;
     const Group unmet = without(without(others, passed_[there]), gone_then(there, others));
     if (!unmet.empty()) motion_holds({motion.moving, {at, motion.path.end()}}, unmet, kWhat, bound);
+    double measured = 0;
     if (!reverse)
       note(kWhat, depths_.wrong(*plan_.disassembly[there].forced, {motion.moving, {at, motion.path.end()}},
-                                placed(without(others, unmet))));
+                                placed(without(others, unmet)), measured));
   }
 
   /// Parts of `others` that were separated before disassembly step `index` and are still at the same place. The

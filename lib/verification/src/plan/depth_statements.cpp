@@ -9,23 +9,26 @@ namespace dismantle {
 
 namespace {
 
-/// Relative error that the plan format allows for a stated depth. Twice the tolerance is always allowed.
+/// Relative error that the plan format allows for a stated depth. So much of the tolerance is always allowed: less for
+/// a forced step, whose depth is all that is known of it.
 constexpr double kShare = 0.1;
+constexpr double kOfTolerance = 2, kOfToleranceForced = 0.2;
 
 }  // namespace
 
-bool DepthStatements::agrees(double stated, double measured) const {
-  return std::abs(stated - measured) <= std::max(2 * verifier_.options().max_penetration, kShare * measured);
+bool DepthStatements::agrees(double stated, double measured, double absolute) const {
+  return std::abs(stated - measured) <= std::max(absolute, kShare * measured);
 }
 
 std::optional<std::string> DepthStatements::wrong(const PlanForced& said, const StepMotion& motion,
-                                                  const std::vector<PlacedPart>& fixed) {
+                                                  const std::vector<PlacedPart>& fixed, double& measured) {
   const double scale = assembly_.normalization.scale;
+  const double absolute = kOfToleranceForced * verifier_.options().max_penetration;
   const auto found =
-      meter_.deepest(motion.moving, fixed, motion.path, {verifier_.options().max_penetration, kShare / 2}, context_);
-  const double measured = found ? found->depth : 0;
+      meter_.deepest(motion.moving, fixed, motion.path, {.absolute = absolute / 2, .relative = kShare / 2}, context_);
+  measured = found ? found->depth : 0;
   const double stated = said.depth * scale;
-  if (agrees(stated, measured) || (said.lower_bound && stated <= measured)) return {};
+  if (agrees(stated, measured, absolute) || (said.lower_bound && stated <= measured)) return {};
   return fmt::format("it is forced and says that '{}' cuts {:.4g} into '{}'; measured: {:.4g}, '{}' into '{}'",
                      said.part, said.depth, said.other, measured / scale, found ? state_.name(found->part) : said.part,
                      found ? state_.name(found->other) : said.other);
@@ -57,7 +60,7 @@ std::optional<std::string> DepthStatements::wrong(const PlanStepOverlap& said, c
     return fmt::format("it says where alone '{}' and '{}' may overlap; measured, there is no such place", said.part,
                        said.other);
   }
-  if (agrees(said.depth * scale, measured)) return {};
+  if (agrees(said.depth * scale, measured, kOfTolerance * verifier_.options().max_penetration)) return {};
   return fmt::format("it says that '{}' is {:.4g} deep in '{}'; measured: {:.4g}", said.part, said.depth, said.other,
                      measured / scale);
 }
@@ -67,7 +70,7 @@ std::optional<std::string> DepthStatements::wrong_flexible(const PlanAssembly& s
     if (!o.flexible) continue;
     const auto a = state_.find(o.a), b = state_.find(o.b);
     const InitialOverlap* found = a && b ? assembly_.overlap_of(*a, *b) : nullptr;
-    if (found == nullptr || !found->declared || !o.declared || !agrees(*o.declared, *found->declared))
+    if (found == nullptr || !found->declared || !o.declared || !agrees(*o.declared, *found->declared, kOfTolerance * verifier_.options().max_penetration))
       return fmt::format("it takes '{}' or '{}' for flexible, and their shape and contact do not say so", o.a, o.b);
   }
   for (const PlanPart& part : said.parts) {

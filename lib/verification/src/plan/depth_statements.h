@@ -17,8 +17,9 @@ class DepthStatements {
       : assembly_(assembly), verifier_(verifier), state_(state), context_(context), meter_(assembly, verifier) {}
 
   /// Checks the stated depth of a forced motion past `fixed`. Returns the error; nullopt when the statement holds.
+  /// `measured`: set to the depth, assembly units.
   std::optional<std::string> wrong(const PlanForced& said, const StepMotion& motion,
-                                   const std::vector<PlacedPart>& fixed);
+                                   const std::vector<PlacedPart>& fixed, double& measured);
   /// The same for a pair that a step moves past each other, with the other part at its current place.
   std::optional<std::string> wrong(const PlanStepOverlap& said, const StepMotion& motion);
   /// The same for the parts that the plan takes for flexible by their shape, compared with the measurement made for the
@@ -26,7 +27,8 @@ class DepthStatements {
   std::optional<std::string> wrong_flexible(const PlanAssembly& said) const;
 
  private:
-  bool agrees(double stated, double measured) const;
+  /// `absolute`: error that is always allowed; assembly units.
+  bool agrees(double stated, double measured, double absolute) const;
 
   const Assembly& assembly_;
   const Verifier& verifier_;

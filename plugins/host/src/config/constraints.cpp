@@ -92,6 +92,37 @@ class Reader {
     return out;
   }
 
+  /// A list of {part: A, against: B, as: WORD, depth: D}.
+  std::vector<NamedAcceptance> acceptances(const std::string& key, const ConfigNode& list) {
+    std::vector<NamedAcceptance> out;
+    const std::string expected =
+        fmt::format("constraints.{} must be a list of {{part: A, against: B, as: snap, depth: D}}", key);
+    if (list.kind != ConfigNode::Kind::sequence) {
+      problems_.push_back(list.mark.error(fmt::format("{}, not {}", expected, list.kind_name())));
+      return out;
+    }
+    for (const ConfigNode& item : list.items) {
+      std::map<std::string, const ConfigNode*> values{{"part", nullptr}, {"against", nullptr}, {"as", nullptr}, {"depth", nullptr}};
+      bool good = item.is_map();
+      if (good)
+        for (const auto& [name, mark, value] : item.members) {
+          const auto known = values.find(name);
+          good = good && known != values.end() && known->second == nullptr && is_name(value);
+          if (known != values.end()) known->second = &value;
+        }
+      for (const auto& [name, value] : values) good = good && value != nullptr;
+      const std::optional<double> depth = good ? number_of(*values["depth"]) : std::nullopt;
+      if (!depth || *depth <= 0) {
+        problems_.push_back(item.mark.error(expected + " with a depth above 0, in input units"));
+        continue;
+      }
+      out.push_back({name(key, *values["part"]), name(key, *values["against"]), values["as"]->scalar, *depth});
+      if (out.back().part == out.back().against)
+        problems_.push_back(item.mark.error(expected + ": two different parts"));
+    }
+    return out;
+  }
+
   std::string name(const std::string& key, const ConfigNode& node) {
     places_.push_back({key, node.scalar, node.mark.error("")});
     return node.scalar;
@@ -218,7 +249,7 @@ class Contradictions {
 }  // namespace
 
 const std::vector<std::string>& constraint_keys() {
-  static const std::vector<std::string> keys{"base", "together", "before", "target", "ignore", "flexible", "overlap"};
+  static const std::vector<std::string> keys{"base", "together", "before", "target", "ignore", "flexible", "overlap", "accept"};
   return keys;
 }
 
@@ -241,6 +272,8 @@ NamedConstraints read_constraints(const ConfigNode& section, std::vector<Constra
       out.flexible = reader.names(key, value, 0);
     } else if (key == "overlap") {
       out.overlap = reader.overlaps(key, value);
+    } else if (key == "accept") {
+      out.accept = reader.acceptances(key, value);
     } else if (key == "together") {
       out.together = reader.lists(key, value);
     } else if (key == "before") {
@@ -302,6 +335,8 @@ Constraints constraints_of(const NamedConstraints& named, const Assembly& assemb
   for (const auto& list : named.together) out.together.push_back(ids(list));
   for (const auto& list : named.before)
     for (std::size_t k = 1; k < list.size(); ++k) out.before.emplace_back(id(list[k - 1]), id(list[k]));
+  for (const NamedAcceptance& a : named.accept)
+    out.accept.push_back({id(a.part), id(a.against), a.as, a.depth * assembly.normalization.scale});
   if (!named.target.empty()) out.target = id(named.target);
   if (!missing.empty())
     throw InputError(assembly.source,

@@ -35,7 +35,7 @@ class Writer {
 
   void constraints(const NamedConstraints& c) {
     if (c.base.empty() && c.together.empty() && c.before.empty() && c.target.empty() && c.ignore.empty() &&
-        c.flexible.empty() && c.overlap.empty())
+        c.flexible.empty() && c.overlap.empty() && c.accept.empty())
       return;
     line("constraints:");
     if (!c.base.empty()) line("  base: " + list(c.base));
@@ -49,6 +49,10 @@ class Writer {
     if (!c.overlap.empty()) line("  overlap:");
     for (const NamedOverlap& o : c.overlap)
       line(fmt::format("    - {{parts: {}, depth: {}}}", list({o.a, o.b}), to_text(ParamValue{o.depth})));
+    if (!c.accept.empty()) line("  accept:");
+    for (const NamedAcceptance& a : c.accept)
+      line(fmt::format("    - {{part: {}, against: {}, as: {}, depth: {}}}", quoted(a.part), quoted(a.against),
+                       quoted(a.as), to_text(ParamValue{a.depth})));
   }
 
   void section(const std::string& name, const std::vector<ParamSpec>& specs, const ParamSet& params) {

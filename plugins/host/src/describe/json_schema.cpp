@@ -143,6 +143,12 @@ std::string json_schema(const Registry& registry) {
       {"properties",
        {{"parts", {{"type", "array"}, {"items", name}, {"minItems", 2}, {"maxItems", 2}}},
         {"depth", {{"type", "number"}, {"minimum", 0}}}}}};
+  const nlohmann::ordered_json accept = {
+      {"type", "object"},
+      {"additionalProperties", false},
+      {"required", {"part", "against", "as", "depth"}},
+      {"properties",
+       {{"part", name}, {"against", name}, {"as", name}, {"depth", {{"type", "number"}, {"exclusiveMinimum", 0}}}}}};
   properties["constraints"] = {{"type", "object"},
                                {"additionalProperties", false},
                                {"description", "What the order has to keep to, by names of parts."},
@@ -153,7 +159,8 @@ std::string json_schema(const Registry& registry) {
                                  {"target", name},
                                  {"ignore", names},
                                  {"flexible", names},
-                                 {"overlap", {{"type", "array"}, {"items", overlap}}}}}};
+                                 {"overlap", {{"type", "array"}, {"items", overlap}}},
+                                 {"accept", {{"type", "array"}, {"items", accept}}}}}};
   properties["layout"]["properties"]["poses"] = {
       {"type", "object"},
       {"description",

@@ -1,6 +1,7 @@
 /// Plans in words. UTF-8.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "dismantle/export.h"
@@ -12,6 +13,8 @@ namespace dismantle {
 DISMANTLE_API std::string result_word(const Plan& plan);
 /// The same with what was asked for: "complete: cover is out, which was the target". No line break.
 DISMANTLE_API std::string result_text(const Plan& plan);
+/// Forced steps that the user accepts (constraints.accept).
+DISMANTLE_API std::size_t accepted_steps(const Plan& plan);
 /// For a terminal, with a line break at the end: what came out in which order, what stays, what was left out, what could not be solved.
 DISMANTLE_API std::string summary_text(const Plan& plan);
 

@@ -24,12 +24,15 @@ struct PlanProblem {
 /// Result of the check of a whole plan.
 struct PlanCheck {
   bool valid = false;                 ///< all motions, separations, stated depths and certificates are as the plan says
-  bool complete = false;              ///< valid, no step is forced, and what was asked for is done (is_done())
+  /// Valid, every forced step is accepted by the user, and what was asked for is done (is_done()).
+  bool complete = false;
   std::size_t forced = 0;             ///< forced steps: not valid motions; their stated depths were checked
+  std::size_t accepted = 0;           ///< those that the user accepts; valid but for the pair that they name
   std::size_t certificates = 0;       ///< number of certificates that hold
   std::size_t checked_by_prover = 0;  ///< those checked by their prover, since there is no independent checker
   double max_penetration = 0;         ///< worst certified bound over all steps
   std::vector<double> step_penetration;
+  std::vector<double> forced_depth{};  ///< by step: as measured, assembly units; 0 for steps that are not forced
   std::size_t verdicts = 0;  ///< of step checks, judged again by judge_again() (dismantle/engine/judgement.h)
   std::vector<std::string> not_checked{};  ///< by judge_again(): "'acme.x': ...": a step check that is not available
   std::vector<PlanProblem> problems;

@@ -48,6 +48,13 @@ struct NamedOverlap {
   bool operator==(const NamedOverlap&) const = default;
 };
 
+/// A forced step that the user accepts: `part` and `against` may cut into each other by `depth` (input units, > 0).
+struct NamedAcceptance {
+  std::string part, against, as;
+  double depth = 0;
+  bool operator==(const NamedAcceptance&) const = default;
+};
+
 /// The user's constraints on the order, by part names. See Constraints.
 struct NamedConstraints {
   std::vector<std::string> base;
@@ -57,6 +64,7 @@ struct NamedConstraints {
   std::vector<std::string> ignore;               ///< parts left out of the assembly
   std::vector<std::string> flexible;             ///< parts that others may cut into: springs, belts, cables, O-rings
   std::vector<NamedOverlap> overlap;             ///< pairs that may penetrate each other
+  std::vector<NamedAcceptance> accept{};         ///< forced steps that are as they should be: snap fits, press fits
   bool operator==(const NamedConstraints&) const = default;
 };
 /// Sets InitialOverlap::declared of the pairs that `overlap` and `flexible` name. Throws like constraints_of().
