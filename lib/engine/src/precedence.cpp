@@ -86,12 +86,16 @@ std::vector<std::vector<std::size_t>> needed_steps(const Disassembly& done, cons
   const std::size_t n = steps.size();
   std::vector<std::vector<std::size_t>> needed(n);
   std::vector<std::vector<bool>> follows(n, std::vector<bool>(n, false));  // [b][a]: a has to come before b
+  // Also after a time limit: it is cheap, and a wrong order is worse than a late end.
   for (std::size_t b = 0; b < n; ++b) {
     const std::vector<PartWay> ways = ways_of(steps[b], needs.boxes());
     // Latest first: steps implied by a later one are not checked.
     for (std::size_t a = b; a-- > 0;) {
-      if (follows[b][a]) continue;
-      if (!context.should_stop() && !needs(b, ways, a)) continue;
+      if (context.cancel.cancelled()) {
+        needed.resize(b);
+        return needed;
+      }
+      if (follows[b][a] || !needs(b, ways, a)) continue;
       needed[b].push_back(a);
       follows[b][a] = true;
       for (std::size_t c = 0; c < a; ++c) follows[b][c] = follows[b][c] || follows[a][c];
@@ -117,7 +121,7 @@ std::vector<std::pair<PartId, PartId>> part_precedence(const Disassembly& done,
     for (const PartId id : steps[i].parts)
       if (steps[i].leaves(id)) leaves[id] = i;
   std::vector<std::pair<PartId, PartId>> pairs;
-  for (std::size_t b = 0; b < steps.size(); ++b)
+  for (std::size_t b = 0; b < needed.size(); ++b)
     for (const std::size_t a : needed[b])
       for (const PartId before : steps[a].parts)
         for (const PartId after : steps[b].parts) {

@@ -14,8 +14,8 @@ namespace dismantle {
 /// Step b needs the earlier step a if it moves a part that a moved, or if its path would cut into the parts of a at
 /// their poses before a. The verifier decides this with little effort, pair by pair. Steps that do not need each other
 /// may be done in either order or simultaneously; only the distance until the hulls are apart depends on the parts
-/// still present. [b]: the steps that it needs, ascending, without those implied by others. From the step at which
-/// `context` asks to stop, steps are taken to need all before them.
+/// still present. [b]: the steps that it needs, ascending, without those implied by others. When the
+/// user cancels, the list ends with the last step that was looked at; what the others need is not known.
 std::vector<std::vector<std::size_t>> needed_steps(const Disassembly& done, const Assembly& assembly,
                                                    const Verifier& verifier, const RunContext& context);
 

@@ -200,6 +200,8 @@ void set_needed(Plan& plan, const std::vector<std::vector<std::size_t>>& needed)
   const std::vector<unsigned> layers = layers_of(needed);
   for (std::size_t i = 0; i < plan.disassembly.size(); ++i) {
     plan.disassembly[i].after.clear();
+    plan.disassembly[i].layer = 0;
+    if (i >= needed.size()) continue;
     for (const std::size_t a : needed.at(i)) plan.disassembly[i].after.push_back(static_cast<unsigned>(a) + 1);
     plan.disassembly[i].layer = layers.at(i);
   }

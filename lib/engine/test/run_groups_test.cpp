@@ -10,6 +10,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/testing/run_rig.h"
 #include "dismantle/verification/check_plan.h"
+#include "precedence.h"
 
 namespace dismantle {
 namespace {
@@ -179,6 +180,31 @@ RunResult in_bits(const std::vector<PartId>& order) {
   };
   RunContext context;
   return run(fake::tube_with_blocks(2), fake::setup(fake::push, std::make_shared<Custom>(bits)), RunOptions{}, context);
+}
+
+/// What a step needs is determined after a time limit, too; a step that was not looked at does not say that it needs
+/// all others.
+TEST(Run, AStepNeedsOnlyWhatIsInItsWayAlsoWhenTimeIsUp) {
+  const Assembly assembly = fake::tube_with_blocks(3);
+  for (const bool cancelled : {false, true}) {
+    RunContext context;
+    context.deadline = Deadline::after_seconds(cancelled ? 1000 : 0);
+    Disassembly done(assembly.parts.size());
+    for (const PartId part : {3, 2, 1}) {
+      DisassemblyStep step;
+      step.parts = {part};
+      step.path = std::make_shared<const Path>(Path{{Pose{}}, {Pose{{0, 0, 30}, Pose{}.q}}});
+      done.add(std::move(step));
+    }
+    if (cancelled) context.cancel.cancel();
+    const Verifier verifier(assembly, VerifyOptions{});
+    const auto needed = needed_steps(done, assembly, verifier, context);
+    ASSERT_EQ(needed.size(), cancelled ? 1u : 3u);
+    EXPECT_EQ(needed[0], std::vector<std::size_t>{});
+    if (cancelled) continue;
+    EXPECT_EQ(needed[1], std::vector<std::size_t>{0});
+    EXPECT_EQ(needed[2], std::vector<std::size_t>{1});
+  }
 }
 
 TEST(Run, WhatMovesOnFromPartWayIsOneStep) {

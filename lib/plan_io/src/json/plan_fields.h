@@ -135,8 +135,9 @@ void step_fields(auto& v, Is<PlanStep> auto& s, StepKind kind) {
   v("planner", s.planner, figure);
   v("depth", s.depth, figure);
   v("contacts", s.contacts, figure, group);
-  v("after", s.after, assembly ? unknown : optional);
-  v("layer", s.layer, assembly ? unknown : optional);
+  const Presence order = assembly ? unknown : when(s.layer > 0);
+  v("after", s.after, order);
+  v("layer", s.layer, order);
   v("overlaps", s.overlaps, assembly ? unknown : if_set);
   v("up", s.up, assembly ? unknown : if_set, unit_vector);
   v("checks", s.checks, assembly ? unknown : if_set);
