@@ -191,6 +191,29 @@ TEST(MotionWords, AScrewIsToldByItsTurnsAndItsSense) {
     }
 }
 
+/// A screw far from the middle of its assembly moves by its pitch, not along a long helix.
+TEST(MotionWords, AScrewIsMeasuredOnItsAxis) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int trial = 0; trial < 50; ++trial) {
+    const auto point = [&] { return Eigen::Vector3d(any(random), any(random), any(random)); };
+    const Eigen::Vector3d axis = point().normalized(), through = 40 * point();
+    const Pose first{5 * point(), Eigen::Quaterniond::UnitRandom()};
+    const double turns = 0.2 + 3 * std::abs(any(random)), travel = 3 * any(random);
+    std::vector<Pose> poses;
+    for (int k = 0; k <= 200; ++k) {
+      const double u = k / 200.0;
+      const Eigen::Quaterniond q(Eigen::AngleAxisd(2 * std::numbers::pi * turns * u, axis));
+      const Pose screw{through - q * through + travel * u * axis, q};
+      poses.push_back({screw.q * first.t + screw.t, screw.q * first.q});
+    }
+    const MotionSummary motion = summarize_motion(poses, point_on_axis(poses, 10 * point()), 0.01);
+    EXPECT_NEAR(motion.length, std::abs(travel), 1e-6);
+    EXPECT_NEAR(motion.turn, 2 * std::numbers::pi * turns, 1e-6);
+  }
+  EXPECT_EQ(point_on_axis({Pose{}, Pose{{1, 2, 3}, Pose{}.q}}, {4, 5, 6}), Eigen::Vector3d(4, 5, 6));
+}
+
 TEST(MotionWords, DirectionsAreThoseOfSomeoneBeforeTheAssembly) {
   EXPECT_EQ(direction_words({0, 0, 2}, false), "up (+Z)");
   EXPECT_EQ(direction_words({0, 2, 0}, true), "up (+Y)");

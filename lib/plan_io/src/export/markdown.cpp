@@ -60,10 +60,11 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
         judged ? " as an assembly operation |" : "", judged ? "---|" : "");
     for (const PlanStep& step : plan.disassembly) {
       std::string motion = "-";
-      if (!step.moves.empty())
-        motion =
-            motion_words(in_unit(summarize_motion(step.moves.front().poses, middle, leg_tolerance(size)), unit.factor),
-                         unit.name, frame.y_up);
+      if (!step.moves.empty()) {
+        const std::vector<Pose>& poses = step.moves.front().poses;
+        const MotionSummary summary = summarize_motion(poses, point_on_axis(poses, middle), leg_tolerance(size));
+        motion = motion_words(in_unit(summary, unit.factor), unit.name, frame.y_up);
+      }
       const std::string what = step.separates.empty() ? " (shifted, stays)" : "";
       out += fmt::format("| {} | {}{} | {} | {} | {} | {} |{}\n", step.step, markdown_text(text::names_of(step)), what,
                          markdown_text(motion), step.layer > 0 ? steps_list(step.after) : "not recorded",
@@ -74,7 +75,7 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
                          judged ? " " + judged_cell(step.checks) + " |" : "");
     }
     out += fmt::format(
-        "\nMotions are those of the first part named, at the assembly's middle. Depths are in assembly units, of which "
+        "\nMotions are those of the first part named, at the assembly's middle, or on the axis about which it turns. Depths are in assembly units, of which "
         "the "
         "largest edge has {:.3g}; {:.2g} are allowed.\n",
         size * a.scale, plan.verified_max_penetration);

@@ -44,6 +44,24 @@ std::string turn_words(double turn) {
 
 }  // namespace
 
+Eigen::Vector3d point_on_axis(const std::vector<Pose>& poses, const Eigen::Vector3d& near) {
+  const Pose* turned = nullptr;
+  double most = std::sin(kTurned * std::numbers::pi / 180);
+  for (const Pose& pose : poses)
+    if (const double sine = (pose.q * poses.front().q.conjugate()).vec().norm(); sine > most) {
+      most = sine;
+      turned = &pose;
+    }
+  if (turned == nullptr) return near;
+  // The motion from the first pose to this one: x -> R x + t. Its axis is where R x + t - x is parallel to the axis.
+  const Eigen::Quaterniond q = turned->q * poses.front().q.conjugate();
+  const Eigen::Vector3d t = turned->t - q * poses.front().t, axis = q.vec().normalized();
+  const Eigen::Vector3d across = t - axis * axis.dot(t);
+  const Eigen::Vector3d centre = 0.5 * (across + (q.w() / q.vec().norm()) * axis.cross(across));
+  const Eigen::Vector3d start = poses.front() * near;
+  return poses.front().q.conjugate() * (centre + axis * axis.dot(start) - poses.front().t);
+}
+
 MotionSummary in_unit(MotionSummary motion, double factor) {
   for (Eigen::Vector3d& leg : motion.legs) leg *= factor;
   motion.displacement *= factor;
@@ -118,7 +136,7 @@ std::string motion_words(const MotionSummary& motion, const std::string& unit, b
   const std::string of_unit = unit.empty() ? "" : " " + unit;
   std::string out;
   if (motion.legs.size() > 4) {
-    out = fmt::format("along the line that is drawn, {}{} in all", figure_text(motion.length), of_unit);
+    out = fmt::format("along its path, {}{} in all", figure_text(motion.length), of_unit);
     if (motion.displacement.norm() > 1e-3 * motion.length)
       out += fmt::format(", to a place {}{} {}", figure_text(motion.displacement.norm()), of_unit,
                          direction_words(motion.displacement, y_up));

@@ -25,6 +25,10 @@ struct MotionSummary {
 DISMANTLE_API MotionSummary summarize_motion(const std::vector<Pose>& poses, const Eigen::Vector3d& point,
                                              double tolerance);
 
+/// The point (assembled frame) on the axis of the largest turn in the motion that is nearest to `near`; `near` for a
+/// motion without turns. A screw moves it straight along its axis, wherever the part is.
+DISMANTLE_API Eigen::Vector3d point_on_axis(const std::vector<Pose>& poses, const Eigen::Vector3d& near);
+
 /// The motion with lengths in a unit of which one input unit is `factor`.
 DISMANTLE_API MotionSummary in_unit(MotionSummary motion, double factor);
 
