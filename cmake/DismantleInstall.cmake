@@ -39,6 +39,9 @@ install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 # The programs and the built-in plugins, without tests.
 get_property(built_in GLOBAL PROPERTY DISMANTLE_BUILT_IN_PLUGINS)
 add_custom_target(programs DEPENDS dismantle ${built_in})
+# What a plan of mesh files with the default configuration needs: quickstart shows one before it builds the rest.
+add_custom_target(first_plan DEPENDS dismantle)
+dismantle_uses(first_plan ${DISMANTLE_DEFAULT_PLUGINS} ${DISMANTLE_PROVER_PLUGINS})
 # Targets that `cmake --install` builds and installs (CMakeLists.txt): of the tests only the contract tests, for plugin authors.
 set(installed programs manual ${libraries})
 foreach(target dismantle_contract_tests dismantle_python)
