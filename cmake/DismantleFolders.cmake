@@ -2,7 +2,7 @@
 #
 # The folders of the plugins of this project, for tests. `dismantle_folders` also finds other plugin folders.
 set(DISMANTLE_SHIPPED_PLUGINS
-  plugins/importers/mesh_files plugins/importers/step
+  plugins/importers/ldraw plugins/importers/mesh_files plugins/importers/step
   simulators/fcl simulators/sdf_penalty simulators/sdf_velocity
   planners/path/bfs planners/path/bk_rrt planners/path/contact_search planners/path/mv_t_rrt
   planners/path/navigation_tree planners/path/portfolio planners/path/prm planners/path/rrt planners/path/rrt_connect_removal

@@ -146,6 +146,7 @@ LoadedAssembly Session::load(InputParts parts, const std::string& source, const 
   }();
   add_findings(parts, report);
   assembly.import_params = import_params_of(config(), *registry_);
+  assembly.reference_order = reference_order_of(parts.reference_order, assembly);
   declare_overlaps(constraints, assembly);
   report.flexible = with_declared(std::move(report.flexible), constraints.flexible, assembly);
   assembly.excluded.insert(assembly.excluded.end(), ignored.begin(), ignored.end());

@@ -132,6 +132,7 @@ class Reader {
                                                   file.extension().string(), readable(readers)));
     context_.progress("read", 0, 1, file.filename().string());
     out_.parts = read(file, *found->second);
+    order_ = found->second->reference_order(file, context_);
     check_total(file);
     for (auto& part : out_.parts)
       if (part.name.empty()) part.name = valid_utf8(file.stem().string());
@@ -139,6 +140,16 @@ class Reader {
   }
 
   std::string fingerprint() { return hash_.hex(); }
+
+  /// With the final names of the parts.
+  std::vector<PlanReferenceStep> order() const {
+    std::vector<PlanReferenceStep> named;
+    for (const ReferenceStep& step : order_) {
+      PlanReferenceStep& out = named.emplace_back(PlanReferenceStep{step.step, {}, valid_utf8(step.group), step.up});
+      for (const std::uint32_t part : step.parts) out.parts.push_back(out_.parts.at(part).name);
+    }
+    return named;
+  }
 
  private:
   void stop_if_told(const fs::path& file) const {
@@ -204,6 +215,7 @@ class Reader {
   std::uint64_t total_ = 0;
   std::mutex mutex_;  // importers may warn from several threads
   std::vector<RawPart> left_;
+  std::vector<ReferenceStep> order_;
 };
 
 }  // namespace
@@ -226,7 +238,22 @@ InputParts read_input(const fs::path& input, const std::vector<std::shared_ptr<I
     throw InputError(input.string(), "this is neither a regular file nor a folder");
   make_names_unique(out.parts, out.warnings);
   out.sha256 = reader.fingerprint();
+  out.reference_order = reader.order();
   return out;
+}
+
+std::vector<ReferenceStep> reference_order_of(const std::vector<PlanReferenceStep>& named, const Assembly& assembly) {
+  std::map<std::string, PartId> ids;
+  for (const Part& part : assembly.parts) ids.emplace(part.name, part.id);
+  std::vector<ReferenceStep> order;
+  for (const PlanReferenceStep& step : named) {
+    ReferenceStep out{step.step, {}, step.group, step.up};
+    for (const std::string& name : step.parts)
+      if (const auto known = ids.find(name); known != ids.end()) out.parts.push_back(known->second);
+    std::sort(out.parts.begin(), out.parts.end());
+    if (!out.parts.empty()) order.push_back(std::move(out));
+  }
+  return order;
 }
 
 void add_findings(const InputParts& input, PrepareReport& report) {

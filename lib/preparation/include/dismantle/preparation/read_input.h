@@ -10,6 +10,7 @@
 
 #include "dismantle/export.h"
 #include "dismantle/importer.h"
+#include "dismantle/plan.h"
 #include "dismantle/preparation/prepare.h"
 #include "dismantle/run_context.h"
 
@@ -27,7 +28,13 @@ struct InputParts {
       sha256;  ///< of the bytes of all files read, and of those they refer to, in the order of `parts`; lower-case hex
   std::vector<std::string> warnings;  ///< of the importers, and what was renamed
   std::vector<std::string> notes;     ///< of the importers: nothing is wrong
+  /// How the author of a single file builds it, by names of `parts`; empty: not stated.
+  std::vector<PlanReferenceStep> reference_order{};
 };
+
+/// That order for the parts of the assembly: steps that put in no part that is there are left out.
+DISMANTLE_API std::vector<ReferenceStep> reference_order_of(const std::vector<PlanReferenceStep>& named,
+                                                            const Assembly& assembly);
 
 /// Folder: each mesh file is one part, even with several bodies, named like the file without extension. An
 /// unreadable file becomes a part with a `problem`, and so does what may be input and is not read: sub-folders with
