@@ -23,6 +23,8 @@ void add_check(CLI::App& app, Action& action);
 void add_prepare(CLI::App& app, Action& action);
 void add_verify(CLI::App& app, Action& action);
 void add_explain(CLI::App& app, Action& action);
+void add_replay(CLI::App& app, Action& action);
+void add_compare(CLI::App& app, Action& action);
 void add_view(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
 void add_book(CLI::App& app, Action& action);

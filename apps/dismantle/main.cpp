@@ -178,6 +178,8 @@ int main(int argc, char** argv) {
   add_prepare(app, action);
   add_verify(app, action);
   add_explain(app, action);
+  add_replay(app, action);
+  add_compare(app, action);
   add_view(app, action);
   add_export(app, action);
   add_book(app, action);

@@ -1,0 +1,185 @@
+// dismantle replay MODEL|PLAN.json [--order ORDER.csv]
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "dismantle/command.h"
+#include "dismantle/console.h"
+#include "dismantle/errors.h"
+#include "dismantle/orders/agreement.h"
+#include "dismantle/orders/replay.h"
+#include "dismantle/plan_io/plan_file.h"
+#include "dismantle/settings.h"
+#include "dismantle/stopped.h"
+
+namespace dismantle::app {
+namespace {
+
+struct ReplayOptions {
+  std::string input, order;
+  bool no_plan = false;
+  ConfigFlags config;
+  ConsoleOptions console;
+};
+
+/// The assembly with its reference order, and the plan that the order is compared with, if there is one.
+struct Loaded {
+  Assembly assembly;
+  std::optional<Plan> plan;
+};
+
+std::vector<ReferenceStep> order_from(const std::string& file, const Assembly& assembly) {
+  std::map<std::string, PartId> ids;
+  for (const Part& part : assembly.parts) ids.emplace(part.name, part.id);
+  std::vector<ReferenceStep> order;
+  for (const OrderStep& step : read_order(file)) {
+    ReferenceStep& out = order.emplace_back();
+    out.step = static_cast<unsigned>(order.size());
+    for (const std::string& name : step.parts) {
+      const auto known = ids.find(name);
+      if (known == ids.end()) throw InputError(file, fmt::format("the assembly has no part '{}'", name));
+      out.parts.push_back(known->second);
+    }
+    std::sort(out.parts.begin(), out.parts.end());
+  }
+  return order;
+}
+
+std::vector<PlanReferenceStep> named(const std::vector<ReferenceStep>& order, const Assembly& assembly) {
+  std::vector<PlanReferenceStep> out;
+  for (const ReferenceStep& step : order) {
+    PlanReferenceStep& named = out.emplace_back(PlanReferenceStep{step.step, {}, step.group, step.up});
+    for (const PartId id : step.parts) named.parts.push_back(assembly.parts[id].name);
+  }
+  return out;
+}
+
+std::vector<std::string> names_of(const ReplayedItem& item, const Assembly& assembly) {
+  std::vector<std::string> names;
+  for (const PartId id : item.parts) names.push_back(assembly.parts[id].name);
+  return names;
+}
+
+nlohmann::ordered_json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+nlohmann::ordered_json item_json(const ReplayedItem& item, const Assembly& assembly) {
+  nlohmann::ordered_json json = {{"step", item.step},
+                                 {"group", item.group},
+                                 {"parts", names_of(item, assembly)},
+                                 {"possible", item.possible},
+                                 {"direction", vector_json(item.direction)}};
+  if (!item.item.empty()) json["item"] = item.item;
+  if (item.possible) return json;
+  json["pair"] = {assembly.parts[item.part].name, assembly.parts[item.other].name};
+  json["depth"] = item.depth / assembly.normalization.scale;
+  json["at"] = vector_json(assembly.normalization.to_input(item.at));
+  return json;
+}
+
+std::string item_text(const ReplayedItem& item, const Assembly& assembly) {
+  const Eigen::Vector3d at = assembly.normalization.to_input(item.at);
+  const std::string unit = assembly.unit.empty() ? "input units" : assembly.unit;
+  return fmt::format("refused: step {}{}: {}: '{}' cuts {:.3g} {} into '{}' at ({:.4g}, {:.4g}, {:.4g}), and deeper "
+                     "along every other direction that was tried\n",
+                     item.step, item.group.empty() ? "" : " of " + item.group,
+                     item.item.empty() ? assembly.parts[item.parts.front()].name : item.item,
+                     assembly.parts[item.part].name, item.depth / assembly.normalization.scale, unit,
+                     assembly.parts[item.other].name, at.x(), at.y(), at.z());
+}
+
+Loaded load(const ReplayOptions& options, const Session& session, RunContext& context) {
+  if (options.input.ends_with(".json")) {
+    LoadedPlan loaded = session.load_plan(options.input, {}, context);
+    std::map<std::string, PartId> ids;
+    for (const Part& part : loaded.assembly.parts) ids.emplace(part.name, part.id);
+    for (const PlanReferenceStep& step : loaded.plan.assembly.reference_order) {
+      ReferenceStep& out = loaded.assembly.reference_order.emplace_back(ReferenceStep{step.step, {}, step.group, step.up});
+      for (const std::string& name : step.parts) out.parts.push_back(ids.at(name));
+    }
+    return {std::move(loaded.assembly), std::move(loaded.plan)};
+  }
+  const LoadedAssembly loaded = session.load(options.input, context);
+  Loaded out{*loaded.assembly, {}};
+  if (!options.no_plan) out.plan = session.plan(loaded, context).plan;
+  return out;
+}
+
+int replay_order(const ReplayOptions& options) {
+  Console console(options.console);
+  const Session session(options.config.source());
+  warn_of_problems(session, console);
+  RunContext context = context_of(session, console);
+  Loaded loaded = stoppable(context, [&] { return load(options, session, context); });
+  Assembly& assembly = loaded.assembly;
+  if (!options.order.empty()) assembly.reference_order = order_from(options.order, assembly);
+  if (assembly.reference_order.empty())
+    throw InputError(options.input, "it states no order: name one with --order ORDER.csv (columns step, part)");
+  VerifyOptions verify = session.config().verify;
+  if (loaded.plan) verify.max_penetration = loaded.plan->verified_max_penetration;
+  RunContext replaying = context;
+  replaying.deadline = Deadline();  // the time limit is that of planning
+  const Verifier verifier(assembly, verify, replaying);
+  const std::vector<ReplayedItem> items = replay(assembly, assembly.reference_order, verifier, replaying);
+  console.end_progress();
+  if (context.cancel.cancelled()) throw Stopped(context, "interrupted before all steps were tried");
+
+  std::string text;
+  std::size_t refused = 0;
+  auto list = nlohmann::ordered_json::array();
+  for (const ReplayedItem& item : items) {
+    list.push_back(item_json(item, assembly));
+    if (item.possible) continue;
+    ++refused;
+    text += item_text(item, assembly);
+  }
+  text += fmt::format("{} of {} insertions of the order are possible, {} refused\n", items.size() - refused,
+                      items.size(), refused);
+  nlohmann::ordered_json json = {{"status", refused == 0 ? "complete" : "partial"},
+                                 {"parts", assembly.parts.size()},
+                                 {"steps", assembly.reference_order.size()},
+                                 {"possible", items.size() - refused},
+                                 {"refused", refused},
+                                 {"items", list}};
+  if (loaded.plan) {
+    const Agreement agreement = agreement_of(order_of(named(assembly.reference_order, assembly)), order_of(*loaded.plan),
+                                             classes_of(loaded.plan->assembly));
+    json["tau"] = agreement.tau ? nlohmann::ordered_json(*agreement.tau) : nlohmann::ordered_json();
+    json["common"] = agreement.common;
+    json["plan_status"] = std::string(to_string(loaded.plan->status));
+    text += agreement.tau ? fmt::format("agreement with the order of the plan: tau-b {:.3f} ({} parts)\n", *agreement.tau,
+                                        agreement.common)
+                          : std::string("agreement with the order of the plan: one of them leaves all parts together\n");
+  }
+  json["plan"] = nullptr;
+  console.text(text);
+  console.result(std::move(json));
+  return refused == 0 ? kComplete : kPartial;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("replay", "Try the order in which people build an assembly, step by step");
+  auto options = std::make_shared<ReplayOptions>();
+  command->add_option("MODEL|PLAN.json", options->input, "Model with building steps (LDraw), or any input with --order; or a plan of it")
+      ->required()
+      ->option_text(" ");
+  command->add_option("--order", options->order, "CSV file with the columns step and part: this order, not that of the model")
+      ->option_text("ORDER.csv");
+  command->add_flag("--no-plan", options->no_plan, "Do not plan a model to compare the orders");
+  options->config.add_file_and_set(*command);
+  options->config.add_key(*command, "--timeout", "run.timeout", "S", "Seconds for planning the model");
+  options->config.add_key(*command, "--threads", "run.threads", "N", "Threads, 0 = all cores");
+  add_format(*command, options->console);
+  add_verbosity(*command, options->console);
+  command->footer(
+      "Goes through the order backwards, with sub-models as groups. What a step puts in is pulled straight out of what\n"
+      "is there, and the verifier confirms it. A refused one is explained: pair, depth, place. Writes nothing.\n"
+      "A model is planned, too, to say how much the two orders agree (Kendall's tau-b, 1 = the same order).\n"
+      "Exit status: 0 all steps are possible, 1 some are refused.\n"
+      "Examples:\n  dismantle replay truck.mpd\n  dismantle replay out/plan.json --order mine.csv");
+  command->callback([&action, options] { action = [options] { return replay_order(*options); }; });
+}
+
+}  // namespace dismantle::app

@@ -1,0 +1,193 @@
+#include "dismantle/orders/replay.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "dismantle/part_set.h"
+#include "dismantle/verification/motion_depth.h"
+#include "reference_groups.h"
+
+namespace dismantle {
+namespace {
+
+constexpr std::size_t kOwnAxes = 3;   // of the faces of an item's parts, beside the coordinate axes
+constexpr double kSameAxis = 0.9999;  // cosine
+constexpr double kSameFace = 0.999;   // cosine between normals of faces that count together
+
+/// Unit vectors without their opposites: the coordinate axes, and the normals of the largest faces.
+class Axes {
+ public:
+  Axes() {
+    for (int k = 0; k < 3; ++k) all_.push_back(Eigen::Vector3d::Unit(k));
+  }
+
+  void add_faces(const Mesh& mesh) {
+    std::vector<std::pair<double, Eigen::Vector3d>> normals;
+    for (const Triangle& t : mesh.triangles) {
+      const Eigen::Vector3d n =
+          (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+      if (!(n.norm() > 0)) continue;
+      const Eigen::Vector3d unit = n.normalized();
+      const auto same = std::find_if(normals.begin(), normals.end(), [&](const auto& known) {
+        return std::abs(known.second.dot(unit)) > kSameFace;
+      });
+      if (same != normals.end())
+        same->first += n.norm();
+      else if (normals.size() < 200)
+        normals.emplace_back(n.norm(), unit);
+    }
+    std::stable_sort(normals.begin(), normals.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (std::size_t k = 0; k < std::min(kOwnAxes, normals.size()); ++k) add(normals[k].second);
+  }
+
+  const std::vector<Eigen::Vector3d>& all() const { return all_; }
+
+ private:
+  void add(const Eigen::Vector3d& axis) {
+    if (std::none_of(all_.begin(), all_.end(), [&](const auto& a) { return std::abs(a.dot(axis)) > kSameAxis; }))
+      all_.push_back(axis);
+  }
+  std::vector<Eigen::Vector3d> all_;
+};
+
+std::vector<PlacedPart> as_assembled(const std::vector<PartId>& parts) {
+  std::vector<PlacedPart> placed;
+  for (const PartId id : parts) placed.push_back({id, Pose{}});
+  return placed;
+}
+
+class Replay {
+ public:
+  Replay(const Assembly& assembly, const std::vector<ReferenceStep>& order, const Verifier& verifier,
+         const RunContext& context)
+      : assembly_(assembly), order_(order), verifier_(verifier), context_(context), groups_(order),
+        meter_(assembly, verifier) {
+    Aabb all;
+    for (const Part& part : assembly.parts) all.extend(part.mesh->box());
+    far_ = all.empty() ? 1 : 1.1 * all.size().norm();
+  }
+
+  std::vector<ReplayedItem> run() {
+    std::vector<PartId> all;
+    for (const Part& part : assembly_.parts) all.push_back(part.id);
+    take_apart("", std::move(all));
+    return std::move(out_);
+  }
+
+ private:
+  void take_apart(const std::string& group, std::vector<PartId> left) {
+    around_.insert(group);
+    std::vector<std::string> inner;
+    for (auto step = order_.rbegin(); step != order_.rend(); ++step) {
+      if (step->group != group) continue;
+      StepItems<PartId> found = groups_.items_of(*step, around_);
+      std::vector<ReplayedItem> items;
+      for (const PartId part : found.parts) items.push_back({step->step, group, {}, {part}});
+      for (const std::string& name : found.groups) {
+        const auto& parts = groups_.parts_of(name);
+        items.push_back({step->step, group, name, {parts.begin(), parts.end()}});
+        inner.push_back(name);
+      }
+      take_out(std::move(items), left);
+    }
+    for (const std::string& name : inner) {
+      const auto& parts = groups_.parts_of(name);
+      take_apart(name, {parts.begin(), parts.end()});
+    }
+    around_.erase(group);
+  }
+
+  /// Whatever order of the items is possible. When no item can leave, the one that cuts in least is refused and taken
+  /// away, and the others are tried again.
+  void take_out(std::vector<ReplayedItem> items, std::vector<PartId>& left) {
+    while (!items.empty() && !context_.should_stop()) {
+      const auto leaving = std::find_if(items.begin(), items.end(), [&](ReplayedItem& item) {
+        const std::vector<PartId> rest = without(left, item.parts);
+        return rest.empty() || leaves(item, rest);
+      });
+      if (leaving != items.end()) {
+        done(std::move(*leaving), left);
+        items.erase(leaving);
+        continue;
+      }
+      for (ReplayedItem& item : items) explain(item, without(left, item.parts));
+      const auto least = std::min_element(items.begin(), items.end(),
+                                          [](const auto& a, const auto& b) { return a.depth < b.depth; });
+      left = without(left, least->parts);
+      out_.push_back(std::move(*least));
+      items.erase(least);
+    }
+  }
+
+  void done(ReplayedItem item, std::vector<PartId>& left) {
+    left = without(left, item.parts);
+    if (left.empty()) return;  // what the others are put to
+    item.possible = true;
+    context_.progress("replay", out_.size() + 1, assembly_.parts.size(), assembly_.parts[item.parts.front()].name);
+    out_.push_back(std::move(item));
+  }
+
+  Axes axes_of(const ReplayedItem& item) const {
+    Axes axes;
+    if (item.parts.size() == 1) axes.add_faces(*assembly_.parts[item.parts.front()].mesh);
+    return axes;
+  }
+
+  Path straight(const ReplayedItem& item, const Eigen::Vector3d& along) const {
+    return {std::vector<Pose>(item.parts.size()), std::vector<Pose>(item.parts.size(), Pose{far_ * along, Pose{}.q})};
+  }
+
+  bool leaves(ReplayedItem& item, const std::vector<PartId>& rest) const {
+    const std::vector<PlacedPart> fixed = as_assembled(rest);
+    const Axes axes = axes_of(item);
+    for (const Eigen::Vector3d& axis : axes.all())
+      for (const double sign : {1.0, -1.0}) {
+        const Eigen::Vector3d out = sign * axis;
+        if (!verifier_.check_motion(item.parts, fixed, straight(item, out), context_).valid) continue;
+        item.direction = -out;
+        return true;
+      }
+    return false;
+  }
+
+  /// Where it cuts in least.
+  void explain(ReplayedItem& item, const std::vector<PartId>& rest) {
+    double least = std::numeric_limits<double>::infinity();
+    const Axes axes = axes_of(item);
+    for (const Eigen::Vector3d& axis : axes.all())
+      for (const double sign : {1.0, -1.0}) {
+        MotionDepthOptions options;
+        options.stop_above = least;
+        const auto found = meter_.deepest(item.parts, as_assembled(rest), straight(item, sign * axis), options, context_);
+        if (!found || !(found->excess() < least)) continue;
+        least = found->excess();
+        item.direction = -sign * axis;
+        item.part = found->part;
+        item.other = found->other;
+        item.depth = found->excess();
+        item.at = found->point;
+      }
+  }
+
+  const Assembly& assembly_;
+  const std::vector<ReferenceStep>& order_;
+  const Verifier& verifier_;
+  const RunContext& context_;
+  const ReferenceGroups<ReferenceStep> groups_;
+  MotionDepthMeter meter_;
+  double far_ = 1;  // after so far, everything is apart
+  std::set<std::string> around_;
+  std::vector<ReplayedItem> out_;
+};
+
+}  // namespace
+
+std::vector<ReplayedItem> replay(const Assembly& assembly, const std::vector<ReferenceStep>& order,
+                                 const Verifier& verifier, const RunContext& context) {
+  return Replay(assembly, order, verifier, context).run();
+}
+
+}  // namespace dismantle
