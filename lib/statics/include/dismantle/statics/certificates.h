@@ -1,0 +1,28 @@
+/// Certificates of standing and of falling, and their check. The check shares no code with the solver: it only adds up
+/// forces and compares displacements.
+#pragma once
+
+#include <string>
+
+#include "dismantle/export.h"
+#include "dismantle/statics/pile.h"
+
+namespace dismantle::statics {
+
+/// Relative rounding that certificates may have: of forces, by the weight that is carried; of displacements, by the
+/// largest one.
+inline constexpr double kCertificateTolerance = 1e-6;
+
+/// Checks that each body is in equilibrium under weights, pushes and `forces`, and that each force lies in its friction
+/// cone. Empty: it holds; otherwise what is wrong.
+DISMANTLE_API std::string check_equilibrium(const Pile& pile, const ContactForces& forces);
+
+/// Checks that `motion` creates `forces`: a contact point carries a force only where the motion presses the bodies
+/// together, and friction opposes the sliding there.
+DISMANTLE_API std::string check_created(const Pile& pile, const ContactForces& forces, const Motions& motion);
+
+/// Checks that no forces in the friction cones can balance the load: every force that a contact allows does work >= 0
+/// in `motion`, the load does work > 0. (Farkas' lemma.)
+DISMANTLE_API std::string check_fall(const Pile& pile, const Motions& motion);
+
+}  // namespace dismantle::statics

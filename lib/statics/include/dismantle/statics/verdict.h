@@ -1,0 +1,35 @@
+/// Does a pile stand?
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "dismantle/export.h"
+#include "dismantle/statics/pile.h"
+
+namespace dismantle::statics {
+
+/// Answer about one pile.
+enum class Verdict {
+  stands,      ///< forces in equilibrium exist, and a small displacement creates them
+  falls,       ///< no forces in equilibrium exist
+  pressed_in,  ///< such forces exist, but nothing creates them: it stays only if it was pressed in
+  uncertain,   ///< too close to the limit, or not found out
+};
+
+/// Name in files and messages.
+DISMANTLE_API std::string_view to_string(Verdict verdict);
+
+/// A verdict with its certificate.
+struct Judgement {
+  Verdict verdict = Verdict::uncertain;
+  ContactForces forces{};  ///< stands, pressed_in: in equilibrium
+  Motions displacement{};  ///< stands: creates the forces
+  Motions motion{};        ///< falls: Farkas' motion. pressed_in: how it moves if it was not pressed in
+};
+
+/// Judges a pile; every certificate has been checked by check_equilibrium(), check_created() or check_fall().
+/// A pile without anything that can move stands.
+DISMANTLE_API Judgement judge(const Pile& pile, const std::function<bool()>& stop = {});
+
+}  // namespace dismantle::statics

@@ -1,0 +1,68 @@
+#include "dismantle/statics/balance.h"
+
+#include <algorithm>
+
+#include "springs.h"
+
+namespace dismantle::statics {
+namespace {
+
+constexpr double kBalanced = 1e-8;
+
+Balance result_of(const Springs& springs, const Eigen::VectorXd& anchor, bool balanced) {
+  Balance result{balanced, springs.residual(anchor), springs.forces(), springs.motion_of(springs.at()),
+                 {},       springs.factorizations()};
+  if (!balanced) result.falling = springs.motion_of(springs.at() - anchor);
+  return result;
+}
+
+Balance associated(Springs& springs, const std::function<bool()>& stop) {
+  Eigen::VectorXd anchor = springs.at();
+  double before = 1e300;
+  for (int k = 0; k < 40; ++k) {
+    anchor = springs.at();
+    if (!springs.minimize(anchor, stop)) break;
+    const double residual = springs.residual(anchor);
+    if (residual < kBalanced) return result_of(springs, anchor, true);
+    if (k > 3 && residual > (1 - 1e-9) * before) break;  // the steps do not change: a direction of falling
+    before = residual;
+  }
+  return result_of(springs, anchor, false);
+}
+
+Balance coulomb(Springs& springs, const std::function<bool()>& stop) {
+  Eigen::VectorXd anchor = springs.at();
+  double best = 1e300, share = 1;
+  int since = 0;
+  for (int k = 0; k < 200; ++k) {
+    anchor = springs.at();
+    springs.minimize(anchor, stop);  // a step that did not converge is a step nevertheless
+    if (stop && stop()) break;
+    const double residual = springs.residual(anchor), change = springs.update_limits(share);
+    const double worst = std::max(residual, change);
+    if (worst < kBalanced) {
+      springs.update_limits();
+      return result_of(springs, anchor, true);
+    }
+    if (k % 4 == 2 && springs.solve_coupled(stop)) return result_of(springs, springs.at(), true);
+    if (worst < 0.9 * best) {
+      best = worst;
+      since = 0;
+    } else if (++since > 40) {
+      break;
+    } else if (since % 4 == 0) {
+      share = std::max(0.1, 0.7 * share);
+    }
+  }
+  return result_of(springs, anchor, false);
+}
+
+}  // namespace
+
+Balance balance(const Pile& pile, FrictionLaw law, const std::function<bool()>& stop) {
+  Springs springs(pile, law);
+  if (springs.size() == 0) return result_of(springs, springs.at(), true);
+  return law == FrictionLaw::associated ? associated(springs, stop) : coulomb(springs, stop);
+}
+
+}  // namespace dismantle::statics

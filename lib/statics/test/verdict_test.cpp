@@ -1,0 +1,169 @@
+#include "dismantle/statics/verdict.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "dismantle/statics/certificates.h"
+#include "piles.h"
+
+namespace dismantle::statics {
+namespace {
+
+using namespace testing;
+using Vec3 = Eigen::Vector3d;
+
+const Vec3 kX = Vec3::UnitX(), kY = Vec3::UnitY();
+constexpr double kDegree = M_PI / 180;
+
+Mesh ground() { return box({-5, -5, -1}, {5, 5, 0}); }
+
+Verdict verdict_of(const Pile& pile) { return judge(pile).verdict; }
+
+TEST(Verdict, ABlockSlidesAtTheAngleOfFriction) {
+  for (const double mu : {0.1, 0.3, 0.45}) {
+    const Pile pile = pile_of({ground(), box({-1, -1, 0}, {1, 1, 0.5})}, 1, mu);
+    const double limit = std::atan(mu);
+    EXPECT_EQ(verdict_of(tilted(pile, kY, 0.995 * limit)), Verdict::stands) << mu;
+    EXPECT_EQ(verdict_of(tilted(pile, kY, 1.005 * limit)), Verdict::falls) << mu;
+    EXPECT_EQ(verdict_of(tilted(pile, Vec3(1, 1, 0).normalized(), 1.005 * limit)), Verdict::falls) << mu;
+  }
+}
+
+TEST(Verdict, ASlenderBlockTopplesAtDepthOverHeight) {
+  const Pile pile = pile_of({ground(), box({-0.25, -1, 0}, {0.25, 1, 1})}, 1, 0.9);  // twice as high as wide
+  EXPECT_EQ(verdict_of(tilted(pile, kY, 26.4 * kDegree)), Verdict::stands);
+  EXPECT_EQ(verdict_of(tilted(pile, kY, 26.8 * kDegree)), Verdict::falls);
+}
+
+TEST(Verdict, BlocksOverhangByHalfOfTheHarmonicSum) {
+  for (int n = 1; n <= 5; ++n)
+    for (const double factor : {0.99, 1.01}) {
+      std::vector<Mesh> meshes = {box({-3, -1, -1}, {0, 1, 0})};  // an edge of the ground at x = 0
+      double x = 0;                                               // right end of the block below
+      for (int k = 0; k < n; ++k) {
+        x += factor / (2 * (n - k));
+        meshes.push_back(box({x - 1, -0.5, 0.2 * k}, {x, 0.5, 0.2 * (k + 1)}));
+      }
+      EXPECT_EQ(verdict_of(pile_of(meshes, 1, 0.5)), factor < 1 ? Verdict::stands : Verdict::falls)
+          << n << " " << factor;
+    }
+}
+
+TEST(Verdict, ABlockBetweenTwoWallsIsPressedIn) {
+  const Mesh left = box({-2, -1, -1}, {-1, 1, 1}), right = box({1, -1, -1}, {2, 1, 1}),
+             block = box({-1, -0.5, -0.3}, {1, 0.5, 0.3});
+  const Judgement found = judge(pile_of({left, right, block}, 2, 0.5));
+  EXPECT_EQ(found.verdict, Verdict::pressed_in);
+  EXPECT_LT(found.motion[2].v.z(), 0);  // it would slide down
+  EXPECT_EQ(verdict_of(pile_of({left, right, block}, 2, 0.0)), Verdict::falls);
+}
+
+TEST(Verdict, PressureOnTheLegsLimitsTheirPush) {
+  // A slab of 3 on two legs of 1, friction 0.5: a horizontal push of half of its weight moves it.
+  Pile pile = pile_of(
+      {ground(), box({-2, -1, 0}, {-1, 1, 1}), box({1, -1, 0}, {2, 1, 1}), box({-2, -1, 1}, {2, 1, 1.2})}, 1, 0.5);
+  for (const std::size_t leg : {1u, 2u}) pile.bodies[leg].weight = 1;
+  pile.bodies[3].weight = 3;
+  for (const double factor : {0.995, 1.005}) {
+    pile.pushes = {{3, Vec3(0, 0, 1.0), Vec3(factor * 1.5, 0, 0)}};
+    EXPECT_EQ(verdict_of(pile), factor < 1 ? Verdict::stands : Verdict::falls);
+  }
+}
+
+TEST(Verdict, ALadderSlidesWhenItsFrictionIsTooSmall) {
+  // A thin ladder against a wall without friction: tan(angle to the ground) >= 1 / (2 mu).
+  const double angle = 55 * kDegree;
+  const Vec3 up(std::cos(angle), 0, std::sin(angle));
+  const Mesh ladder = bent_box({0, -0.2, 0}, {0.002, 0.2, 2}, [&](const Vec3& p) -> Vec3 {
+    return p.z() * up + p.x() * Vec3(std::sin(angle), 0, -std::cos(angle)) + Vec3(0, p.y(), 0.002 * std::cos(angle));
+  });
+  double far = 0;
+  for (const Vec3& v : ladder.vertices) far = std::max(far, v.x());
+  const Mesh wall = box({far, -1, -0.5}, {far + 1, 1, 3});
+  const double limit = 1 / (2 * std::tan(angle));
+  for (const double factor : {0.98, 1.02}) {
+    Pile pile = pile_of({ground(), wall, ladder}, 2, factor * limit);
+    for (Contact& c : pile.contacts)
+      if (std::abs(c.normal.x()) > 0.9) c.friction = 0;
+    EXPECT_EQ(verdict_of(pile), factor > 1 ? Verdict::stands : Verdict::falls);
+  }
+}
+
+/// Random blocks on each other, by a grid, so that they touch.
+std::vector<Mesh> random_blocks(std::mt19937& random, int n) {
+  std::vector<Mesh> meshes = {ground()};
+  std::vector<double> top(8, 0.0);
+  for (int k = 0; k < n; ++k) {
+    const int at = static_cast<int>(random() % 8), wide = 1 + static_cast<int>(random() % 3);
+    double z = 0;
+    for (int x = at; x < std::min(8, at + wide); ++x) z = std::max(z, top[static_cast<std::size_t>(x)]);
+    const double height = 0.5 * (1 + static_cast<double>(random() % 3));
+    for (int x = at; x < std::min(8, at + wide); ++x) top[static_cast<std::size_t>(x)] = z + height;
+    meshes.push_back(box({at - 4.0, 0, z}, {std::min(8, at + wide) - 4.0, 1, z + height}));
+  }
+  return meshes;
+}
+
+TEST(Verdict, IsTheSameForAPileThatIsTurnedScaledAndRenamed) {
+  std::mt19937 random(7);
+  int standing = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const auto meshes = random_blocks(random, 2 + static_cast<int>(random() % 7));
+    const Pile pile = pile_of(meshes, 1, 0.4);
+    const Verdict verdict = verdict_of(pile);
+    ASSERT_NE(verdict, Verdict::uncertain);
+    standing += verdict == Verdict::stands;
+    const Eigen::Quaterniond turn = Eigen::Quaterniond::UnitRandom();
+    std::vector<Mesh> moved = meshes;
+    for (Mesh& m : moved)
+      for (Vec3& v : m.vertices) v = 37 * (turn * v) + Vec3(1, 2, 3);
+    std::reverse(moved.begin() + 1, moved.end());
+    Pile other = pile_of(moved, 1, 0.4);
+    other.down = turn * pile.down;
+    EXPECT_EQ(verdict_of(other), verdict) << trial;
+  }
+  EXPECT_GT(standing, 5);
+  EXPECT_LT(standing, 55);
+}
+
+TEST(Certificates, DoNotSurviveMutation) {
+  std::mt19937 random(11);
+  int standing = 0, falling = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const Pile pile = pile_of(random_blocks(random, 5), 1, 0.4);
+    const Judgement found = judge(pile);
+    const std::size_t body = 1 + random() % 5;
+    if (found.verdict == Verdict::stands) {
+      ASSERT_EQ(check_equilibrium(pile, found.forces) + check_created(pile, found.forces, found.displacement), "");
+      ContactForces forces = found.forces;
+      std::size_t contact = random() % forces.size();
+      while (pile.contacts[contact].a == 0 && pile.contacts[contact].b == 0) contact = random() % forces.size();
+      forces[contact][0] += 0.01 * pile.bodies[body].weight * Vec3::Random();
+      EXPECT_NE(check_equilibrium(pile, forces), "");
+      Pile heavier = pile;
+      heavier.bodies[body].weight *= 1.01;
+      EXPECT_NE(check_equilibrium(heavier, found.forces), "");
+      Motions lifted = found.displacement;
+      for (Motion& m : lifted) m.v = -m.v;
+      EXPECT_NE(check_created(pile, found.forces, lifted), "");
+      ++standing;
+    } else if (found.verdict == Verdict::falls) {
+      ASSERT_EQ(check_fall(pile, found.motion), "");
+      Motions motion = found.motion;
+      for (Motion& m : motion) m = {-m.v, -m.w};
+      EXPECT_NE(check_fall(pile, motion), "");
+      motion = found.motion;
+      motion[0].v = Vec3::UnitZ();
+      EXPECT_NE(check_fall(pile, motion), "");
+      ++falling;
+    }
+  }
+  EXPECT_GT(std::min(standing, falling), 5);
+}
+
+}  // namespace
+}  // namespace dismantle::statics
