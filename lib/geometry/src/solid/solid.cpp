@@ -10,6 +10,7 @@
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/ray.h"
+#include "solid/pinches.h"
 
 namespace dismantle::geometry {
 namespace {
@@ -160,7 +161,7 @@ bool share_corner(const Triangle& a, const Triangle& b) {
 }  // namespace
 
 Solid::Solid(const Mesh& m, const Poll& poll)
-    : frame(tight_frame(m)), mesh(turned(m, frame)), bvh(mesh, poll), box(mesh.box()) {
+    : frame(tight_frame(m)), mesh(without_pinches(turned(m, frame))), bvh(mesh, poll), box(mesh.box()) {
   normals.resize(mesh.triangles.size());
   for (std::size_t t = 0; t < normals.size(); ++t) normals[t] = triangle_normal(mesh, t);
   poll.before(mesh.triangles.size());
