@@ -330,6 +330,7 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
   Arrangements arrangements(*this, places, to_contact);
   Answer answer;
   for (std::size_t current = 0; current < arrangements.size(); ++current) {
+    answer.waiting = arrangements.size() - current;
     if (context.should_stop()) {
       answer.end = End::stopped;
       return answer;
@@ -346,6 +347,7 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
     }
   }
   answer.end = End::exhausted;
+  answer.waiting = 0;
   return answer;
 }
 

@@ -41,6 +41,9 @@ struct GroupState {
   bool translations_limited = false;    ///< the last search for partial translations spent its budget
   bool translations_exhausted = false;  ///< that search visited all arrangements, and none frees a part
 
+  /// Proof of the oracle that no translations separate its members, whichever of them move; null: none is known.
+  const Certificate* proof = nullptr;
+
   bool contains(SubassemblyId member) const;
   bool is_pair() const { return members.size() == 2; }
 };

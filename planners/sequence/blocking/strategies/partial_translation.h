@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "blocking/lattice_search.h"
 #include "blocking/params.h"
 #include "blocking/translation_search.h"
 #include "blocking_graph/straight_motion.h"
@@ -24,13 +25,18 @@ class PartialTranslation final : public Strategy {
  private:
   struct Progress {
     bool done = false;
+    bool off_grid = false;  ///< the search on a grid does not suit the group, or the verifier refused what it found
     unsigned depth = 0;  ///< GroupState::search_depth at the last search
     std::string note;
   };
   /// Result of proposing one translation to the oracle.
   enum class Made { yes, refused, removed, impossible };
+  bool suits(const GroupState& group) const;
   bool search(GroupState& group);
   TranslationSearch::Answer find(GroupState& group);
+  void prove(GroupState& group);
+  bool take_pair_apart(GroupState& group);
+  std::optional<std::size_t> straight_direction(const Eigen::Vector3d& direction) const;
   Made make(GroupState& group, const Translation& slide);
   bool translate(GroupState& group, const Subassemblies& ids, const Eigen::Vector3d& by, const AttemptResult*& answer);
   void forbid(const GroupState& group, const Subassemblies& ids, const Eigen::Vector3d& direction,
@@ -41,6 +47,7 @@ class PartialTranslation final : public Strategy {
   StraightMotion* straight_;
   const PartialTranslationParams& params_;
   TranslationSearch translations_;
+  LatticeSearch on_grid_;
   PerGroup<Progress> progress_;
 };
 

@@ -10,6 +10,7 @@
 #include "blocking/lookahead.h"
 #include "blocking/params.h"
 #include "blocking/search_history.h"
+#include "blocking_graph/straight_motion.h"
 #include "blocking_graph/strategy.h"
 
 namespace dismantle::blocking {

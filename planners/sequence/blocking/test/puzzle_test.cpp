@@ -1,0 +1,81 @@
+/// Puzzles of cubes without play, against a solver that tries everything.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dismantle/testing/shapes.h"
+#include "dismantle/testing/voxels.h"
+#include "run_blocking.h"
+
+namespace dismantle::blocking {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+
+/// Pieces of random cells that hold each other, and take several moves to the first separation.
+struct Puzzle {
+  std::vector<voxels::Piece> pieces;
+  voxels::Solution truth;
+};
+
+Puzzle random_puzzle(Rng& rng, std::size_t count, int least_moves) {
+  for (;;) {
+    Puzzle puzzle;
+    puzzle.pieces.resize(count);
+    const double share = rng.uniform(0.4, 0.7);
+    for (int x = 0; x < 4; ++x)
+      for (int y = 0; y < 4; ++y)
+        for (int z = 0; z < 3; ++z)
+          if (rng.uniform() < share) puzzle.pieces[rng.below(count)].push_back({x, y, z});
+    if (std::any_of(puzzle.pieces.begin(), puzzle.pieces.end(), [](const auto& p) { return p.empty(); })) continue;
+    puzzle.truth = voxels::solve(puzzle.pieces, 2'000);
+    if (puzzle.truth.moves && *puzzle.truth.moves >= least_moves) return puzzle;
+  }
+}
+
+Assembly assembly_of(const std::vector<voxels::Piece>& pieces, const Pose& pose, const Vec3& pitch) {
+  std::vector<Mesh> meshes;
+  for (const auto& piece : pieces) {
+    Mesh mesh = voxels::surface(piece);
+    for (Vec3& v : mesh.vertices) v = pose * v.cwiseProduct(pitch);
+    meshes.push_back(std::move(mesh));
+  }
+  return shapes::assembly_of(meshes);
+}
+
+/// Straight slides until the first separation.
+int moves_to_first_separation(const Plan& plan) {
+  int moves = 0;
+  for (const PlanStep& step : plan.disassembly) {
+    std::optional<Vec3> last;
+    const auto& poses = step.moves.front().poses;
+    for (std::size_t k = 0; k + 1 < poses.size(); ++k) {
+      const Vec3 way = poses[k + 1].t - poses[k].t;
+      if (way.norm() < 1e-9) continue;
+      if (!last || last->dot(way.normalized()) < 0.999) ++moves;
+      last = way.normalized();
+    }
+    if (!step.separates.empty()) break;
+  }
+  return moves;
+}
+
+TEST(Puzzles, ComeApartInTheLeastNumberOfMoves) {
+  Rng rng(31);
+  for (int trial = 0; trial < 12; ++trial) {
+    const Puzzle puzzle = random_puzzle(rng, 3 + rng.below(2), 3);
+    const Vec3 pitch(rng.uniform(0.6, 2), rng.uniform(0.6, 2), rng.uniform(0.6, 2));
+    const Assembly assembly = assembly_of(puzzle.pieces, shapes::random_pose(rng, 3), pitch);
+    RunOptions options;
+    options.verify.max_penetration = 0.002;
+    const RunResult result = fake::take_apart(assembly, 1, options);
+    EXPECT_EQ(moves_to_first_separation(result.plan), *puzzle.truth.moves) << trial;
+    EXPECT_FALSE(result.plan.disassembly.empty());
+  }
+}
+
+}  // namespace
+}  // namespace dismantle::blocking
