@@ -61,6 +61,7 @@ void BlockingParams::describe(Schema<BlockingParams>& s) {
   s.add("max_depth", &BlockingParams::max_depth,
         {.unit = "1", .min = 1, .max = 1e6, .doc = "Largest depth of the path searches, except those of pair_search."});
   s.advanced("depth_without_translations", &BlockingParams::depth_without_translations, {1});
+  s.advanced("depth_of_rotations", &BlockingParams::depth_of_rotations, {1});
   s.advanced("touched_parts", &BlockingParams::touched_parts, {1});
   s.advanced("cost_octaves", &BlockingParams::cost_octaves, {.min = 0, .min_open = true});
   s.advanced("pair_depth", &BlockingParams::pair_depth, {1});

@@ -81,6 +81,8 @@ struct PathSearchParams {
   unsigned max_depth = 8;
   /// Largest depth if all arrangements that translations reach were visited and none of them frees a part.
   unsigned depth_without_translations = 4;
+  /// Largest depth if no translations separate the group, which is proved: only a rotation may.
+  unsigned depth_of_rotations = 1;
   /// Number of most touched parts that are considered: a search is repeated to the same depth when one of them has
   /// left.
   unsigned touched_parts = 3;

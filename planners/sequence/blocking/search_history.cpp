@@ -42,6 +42,7 @@ bool SearchHistory::is_worthwhile(const GroupState& group, SubassemblyId id, uns
 }
 
 unsigned SearchHistory::max_depth(const GroupState& group) const {
+  if (group.proof != nullptr) return std::min(params_.depth_of_rotations, params_.max_depth);
   return group.translations_exhausted ? std::min(params_.depth_without_translations, params_.max_depth)
                                       : params_.max_depth;
 }

@@ -11,6 +11,7 @@ void Report::add_left(const GroupState& group, const std::string& notes) {
   for (const PartId part : parts) {
     if (state_.is_inseparable(state_.subassembly_of(part))) continue;  // add_inseparable() reports it
     Unsolved reason = reason_for(group, part);
+    if (reason.certificate == nullptr) reason.certificate = group.proof;
     if (!notes.empty()) reason.message += (reason.message.empty() ? "" : "; ") + notes;
     unsolved_.push_back(std::move(reason));
   }

@@ -64,6 +64,16 @@ const Checker* checker_of(std::string_view kind) {
         {"rows", 0},
         {"multipliers", 0}},
        objection_to_interlock_lp},
+      {"translations",
+       {ProofEffort::low, 2, kAny, false},
+       {{"axes", 4},
+        {"pitch", 3},
+        {"origin", 3},
+        {"inset", 3},
+        {"counts", 0},
+        {"cells", 0},
+        {"arrangements", 0}},
+       objection_to_translations},
   };
   const auto found = std::find_if(all.begin(), all.end(), [&](const Checker& c) { return c.kind == kind; });
   return found == all.end() ? nullptr : &*found;

@@ -52,4 +52,7 @@ std::string objection_to_interlock_lp(const Certificate& certificate, const Sepa
 std::string objection_to_ring(const Certificate& certificate, const SeparationQuery& query, const RunContext& context);
 std::string objection_to_spool(const Certificate& certificate, const SeparationQuery& query, const RunContext& context);
 
+std::string objection_to_translations(const Certificate& certificate, const SeparationQuery& query,
+                                      const RunContext& context);
+
 }  // namespace dismantle::certificates

@@ -103,12 +103,26 @@ std::pair<double, double> best_base(const Planes& planes, double pitch, double s
   return best;
 }
 
+/// Planes of the grid, of `count` + 1, in which there are faces.
+std::size_t used_planes(const Planes& up, const Planes& down, double base, double pitch, int count, double same) {
+  std::vector<bool> used(static_cast<std::size_t>(count) + 1, false);
+  for (const Planes* planes : {&up, &down})
+    for (const auto& [offset, area] : planes->at) {
+      const double steps = (offset - base) / pitch, whole = std::round(steps);
+      if (std::abs(steps - whole) * pitch < same && whole >= 0 && whole <= count)
+        used[static_cast<std::size_t>(whole)] = true;
+    }
+  return static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
+}
+
 struct Grid {
-  double pitch = 0, origin = 0, area = 0, reach = 0;
+  double pitch = 0, origin = 0, play = 0, area = 0, reach = 0;
 };
 
 /// The coarsest grid along an axis that nearly as much area fits as any.
-std::optional<Grid> grid_along(const std::vector<Face>& faces, const Vec3& axis, double extent, double tolerance) {
+std::optional<Grid> grid_along(const std::vector<Face>& faces, const Vec3& axis, double lo, double hi,
+                               double tolerance) {
+  const double extent = hi - lo;
   const double same = 0.3 * tolerance;
   // Offsets of both along the axis. Faces of one side have one phase, and the other differs from it by the play.
   const Planes up = planes_of(faces, axis, same);
@@ -125,7 +139,7 @@ std::optional<Grid> grid_along(const std::vector<Face>& faces, const Vec3& axis,
     const auto [bottom, bottom_area] = best_base(down, pitch, same);
     const double steps = std::round((bottom - top) / pitch), play = 0.5 * (bottom - top - steps * pitch);
     if (play < -tolerance || play > pitch / 8) return;
-    grids.push_back({pitch, top + play, top_area + bottom_area, reach});
+    grids.push_back({pitch, top + play, play, top_area + bottom_area, reach});
   };
   for (const Planes* planes : {&up, &down}) {
     const std::size_t count = std::min<std::size_t>(planes->at.size(), 10);
@@ -146,7 +160,14 @@ std::optional<Grid> grid_along(const std::vector<Face>& faces, const Vec3& axis,
   for (const Grid& g : grids) coarsest = std::max(coarsest, g.pitch);
   // Planes that are far apart give the most digits.
   std::erase_if(grids, [&](const Grid& g) { return g.pitch < coarsest - 2 * same; });
-  return *std::max_element(grids.begin(), grids.end(), [](const Grid& a, const Grid& b) { return a.reach < b.reach; });
+  Grid best =
+      *std::max_element(grids.begin(), grids.end(), [](const Grid& a, const Grid& b) { return a.reach < b.reach; });
+  // Cell 0 is at the lower end. Few planes fit some fine grid by chance: most planes of a real one have faces.
+  best.origin += std::floor((lo - best.origin) / best.pitch + 0.25) * best.pitch;
+  const int cells = static_cast<int>(std::ceil((hi - best.origin) / best.pitch - 0.25));
+  const std::size_t used = used_planes(up, down, best.origin, best.pitch, cells, best.play + same);
+  if (2 * used <= static_cast<std::size_t>(cells) + 1) return std::nullopt;
+  return best;
 }
 
 }  // namespace
@@ -172,11 +193,10 @@ std::optional<Lattice> lattice_of(const std::vector<const Mesh*>& meshes, double
         lo = std::min(lo, axis.dot(v));
         hi = std::max(hi, axis.dot(v));
       }
-    const auto grid = grid_along(faces, axis, hi - lo, tolerance);
+    const auto grid = grid_along(faces, axis, lo, hi, tolerance);
     if (!grid) return std::nullopt;
     lattice.pitch[k] = grid->pitch;
-    // Cell (0, 0, 0) is at the lower end.
-    lattice.origin[k] = grid->origin + std::floor((lo - grid->origin) / grid->pitch + 0.25) * grid->pitch;
+    lattice.origin[k] = grid->origin;
   }
   return lattice;
 }

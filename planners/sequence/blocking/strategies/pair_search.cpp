@@ -17,9 +17,11 @@ Result PairSearch::apply(GroupState& group) {
 
 /// True: the pair was separated.
 bool PairSearch::search(GroupState& group) {
-  const unsigned depth = history_.next_depth_of_pair(group, lookahead_.other_pairs_wait());
-  const bool unlimited = depth == 0;
-  if (!unlimited) group.pair_depth = depth;
+  const bool proved = group.proof != nullptr;
+  const unsigned depth =
+      proved ? history_.max_depth(group) : history_.next_depth_of_pair(group, lookahead_.other_pairs_wait());
+  const bool last = depth == 0 || proved;
+  if (depth != 0) group.pair_depth = depth;
   const Subassemblies candidates = searcher_.candidates(group);
   Subassemblies open;
   std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(open),
@@ -27,7 +29,7 @@ bool PairSearch::search(GroupState& group) {
   if (searcher_.search_each(group, open, depth)) return true;
   if (state_.stop()) return false;
   group.waiting = history_.waiting_of(candidates);
-  group.pair_finished = unlimited || history_.waiting_of(group.members).empty();
+  group.pair_finished = last || history_.waiting_of(group.members).empty();
   return false;
 }
 

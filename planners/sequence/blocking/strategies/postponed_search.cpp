@@ -3,7 +3,7 @@
 namespace dismantle::blocking {
 
 Result PostponedSearch::apply(GroupState& group) {
-  if (params_.postponed_searches) {
+  if (params_.postponed_searches && group.proof == nullptr) {
     Subassemblies list;
     for (const SubassemblyId s : searcher_.candidates(group)) {
       const PastSearch* search = history_.last(s);

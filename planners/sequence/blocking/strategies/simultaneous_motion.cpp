@@ -35,7 +35,7 @@ bool SimultaneousMotion::can_afford(const GroupState& group) const {
 
 /// One round after the first round of path searches, the next after the second, and so on.
 Result SimultaneousMotion::apply(GroupState& group) {
-  if (group.members.size() < 3) return Result::unchanged;
+  if (group.members.size() < 3 || group.proof != nullptr) return Result::unchanged;
   const unsigned allowed = group.searches_exhausted || group.search_depth > 2 ? kRounds : group.search_depth - 1;
   Progress& progress = progress_[group];
   if (unsupported_ || progress.rounds >= allowed) return Result::unchanged;

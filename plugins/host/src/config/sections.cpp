@@ -86,7 +86,7 @@ const std::vector<PluginSection>& plugin_sections() {
       {.name = "immobility",
        .kind = PluginKind::immobility_prover,
        .defaults = {"overlap_lock", "enclosed_ball", "ring", "spool", "hook", "disc", "configuration_cells",
-                    "interlock_lp"},
+                    "interlock_lp", "translations"},
        .many = &RunConfig::provers,
        .list = "provers",
        .doc = "Immobility provers, in the order in which they are asked; [] = none.",

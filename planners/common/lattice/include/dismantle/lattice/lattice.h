@@ -29,8 +29,8 @@ struct Lattice {
 inline constexpr int kMostCells = 48;
 
 /// The coarsest grid that nearly all flat faces across three orthogonal axes fit. `tolerance`: of the verifier. None:
-/// there is no such grid, or the play is too large for it. Faces in other directions do not matter, as long as they
-/// are less than two thirds of the surface.
+/// there is no such grid, less than half of its planes have faces, or the play is too large for it. Faces in other
+/// directions do not matter, as long as they are less than two thirds of the surface.
 std::optional<Lattice> lattice_of(const std::vector<const Mesh*>& meshes, double tolerance);
 
 using Cell = std::array<int, 3>;
