@@ -290,6 +290,7 @@ double BodyWorld::room(const State& state, double most) {
 /// In a tight place, many contacts would push the body into the few on the other side. So the wanted clearance is
 /// halved until all contacts can have it. A body deep inside another one stays there.
 void BodyWorld::project_to_clearance(State& state, double clearance) {
+  clearance = std::min(clearance, options_.margin);
   double most = room(state, clearance);
   for (double wanted = clearance; most < wanted && wanted > contact_depth_; wanted /= 2) {
     State there = state;

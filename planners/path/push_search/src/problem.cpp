@@ -1,6 +1,7 @@
 #include "dismantle/push/problem.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace dismantle::push {
 
@@ -37,6 +38,11 @@ double Problem::displacement(const State& state) const {
   }
   std::sort(lengths.begin(), lengths.end());
   return independent() ? lengths[lengths.size() - 2] : lengths.back();
+}
+
+void Problem::give_room(State& state) const {
+  const double wanted = tactics.clearance * query.tolerance;
+  world->project_to_clearance(state, wanted > 0 ? wanted : std::numeric_limits<double>::infinity());
 }
 
 std::vector<Contact> Problem::contacts(const State& state) const {

@@ -38,7 +38,7 @@ ScrewRun::ScrewRun(Problem& problem, Work& work, StateTree& tree, std::int32_t f
       origin_(tree[from].state),
       state_(origin_),
       last_(from) {
-  problem_.world->project_to_clearance(state_, problem_.clearance());
+  problem_.give_room(state_);
   motion_.push_back(path::poses_of(state_));
   room_ = state_;
 }
@@ -104,7 +104,7 @@ void ScrewRun::turn_back(double length) {
   const double kept = problem_.tactics.glide_kept * length;
   const Eigen::Vector3d center = problem_.center(state_);
   room_ = moved(state_, screw_, center, kept);
-  problem_.world->project_to_clearance(room_, problem_.clearance());
+  problem_.give_room(room_);
   screw_in_room_ =
       fitted_screw(about(screw_, center, problem_.center(room_)), state_.bodies[0].pose, room_.bodies[0].pose,
                    problem_.bodies[0].center, problem_.world->torque_arm(0), kept * screw_.angular.norm());

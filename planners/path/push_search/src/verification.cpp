@@ -30,7 +30,7 @@ Path Verification::with_room(const Path& rubbing, const Work& work) const {
   for (std::size_t k = 1; k + 1 < path.size() && !work.used_up(); ++k) {
     State state = problem_.world->initial_state();
     for (std::size_t i = 0; i < bodies.size(); ++i) state.bodies[i].pose = path[k][i];
-    problem_.world->project_to_clearance(state, problem_.clearance());
+    problem_.give_room(state);
     for (std::size_t i = 0; i < bodies.size(); ++i) path[k][i] = state.bodies[i].pose;
   }
   return path;

@@ -32,7 +32,8 @@ struct Problem {
 
   // Lengths, assembly units.
   double glide_step() const { return tactics.glide_step * query.tolerance; }
-  double clearance() const { return tactics.clearance * query.tolerance; }
+  /// Moves the parts away from their contacts; see SearchParameters::clearance.
+  void give_room(State& state) const;
   double touch_distance() const { return tactics.touch_distance * query.tolerance; }
 
   const PathQuery& query;
