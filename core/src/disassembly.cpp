@@ -80,9 +80,11 @@ void Disassembly::pop() {
   steps_.pop_back();
 }
 
-void Disassembly::follow(const Disassembly& longer) {
-  if (!steps_.empty()) pop();
-  for (std::size_t k = steps_.size(); k < longer.steps_.size(); ++k) add(longer.steps_[k]);
+void Disassembly::follow(const Disassembly& other) {
+  std::size_t same = 0;  // a step and its copy share the path
+  while (same < std::min(steps_.size(), other.steps_.size()) && steps_[same].path == other.steps_[same].path) ++same;
+  while (steps_.size() > same) pop();
+  for (std::size_t k = same; k < other.steps_.size(); ++k) add(other.steps_[k]);
 }
 
 std::vector<PlacedPart> Disassembly::placed(std::span<const PartId> parts, std::size_t after) const {

@@ -46,6 +46,7 @@ std::optional<std::vector<PartId>> PathOracle::obstacles(const Attempt& attempt,
 ForcingOracle::~ForcingOracle() = default;
 TransferPlanner::~TransferPlanner() = default;
 SequenceObserver::~SequenceObserver() = default;
+bool SequenceObserver::taken_back(std::size_t /*count*/) { return false; }
 SequencePlanner::~SequencePlanner() = default;
 StepCheck::~StepCheck() = default;
 StepVerdict StepCheck::judge_plan(std::span<const StepQuestion> /*operations*/, const RunContext& /*context*/) const {

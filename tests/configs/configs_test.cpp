@@ -121,14 +121,20 @@ TEST(Configs, DefaultSaysWhatIsTheDefault) {
   EXPECT_EQ(none.simulator.parameters, file.simulator.parameters);
   EXPECT_EQ(none.path_planner.type, file.path_planner.type);
   EXPECT_EQ(none.path_planner.parameters, file.path_planner.parameters);
-  // run.force: last_resort appends least_cut to the default planner; the file writes it out.
+  // run.force: last_resort appends least_cut to the default planner, and run.best_order puts both into a best_order; the
+  // file writes it out.
   EXPECT_EQ(none.run.force, ForceWhen::last_resort);
-  ASSERT_EQ(file.sequence_planner.type, "chain");
-  const auto& chain = std::get<std::vector<PluginChoice>>(file.sequence_planner.parameters.at("of"));
+  EXPECT_TRUE(none.run.best_order);
+  ASSERT_EQ(file.sequence_planner.type, "best_order");
+  const auto& of = std::get<PluginChoice>(file.sequence_planner.parameters.at("of"));
+  ASSERT_EQ(of.type, "chain");
+  const auto& chain = std::get<std::vector<PluginChoice>>(of.parameters.at("of"));
   ASSERT_EQ(chain.size(), 2u);
   EXPECT_EQ(none.sequence_planner.type, chain[0].type);
   EXPECT_EQ(none.sequence_planner.parameters, chain[0].parameters);
   EXPECT_EQ(chain[1].type, "least_cut");
+  EXPECT_EQ(none.objective, file.objective);
+  EXPECT_FALSE(none.objective.empty());
   EXPECT_EQ(none.transfer_planner.type, file.transfer_planner.type);
   EXPECT_EQ(none.transfer_planner.parameters, file.transfer_planner.parameters);
 }

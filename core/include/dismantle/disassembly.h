@@ -65,9 +65,9 @@ class DISMANTLE_API Disassembly {
   void add(DisassemblyStep step);
   /// Takes the last step back.
   void pop();
-  /// Takes over the steps of another one that began with the same start and the same steps, but for the last of them,
-  /// which it may have replaced. Copies only what is new.
-  void follow(const Disassembly& longer);
+  /// Takes over the steps of another one with the same start, from the first step on in which they differ. Steps are the
+  /// same when they share their path, as a step and its copy do.
+  void follow(const Disassembly& other);
 
   const Pose& pose(PartId part, std::size_t after = kNow) const { return stand(part, after).pose; }
   std::size_t group(PartId part, std::size_t after = kNow) const { return stand(part, after).group; }

@@ -45,6 +45,9 @@ class DISMANTLE_API SequenceObserver {
  public:
   virtual ~SequenceObserver();
   virtual void removed(const Removal& removal, std::size_t parts_left) = 0;
+  /// Takes the last `count` removals back, so that others can be announced in their place. False: this observer keeps
+  /// what it was given, and nothing has changed.
+  virtual bool taken_back(std::size_t count);
 };
 
 /// What a sequence planner can do; constant for an object.

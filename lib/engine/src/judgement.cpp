@@ -110,7 +110,7 @@ Operation operation_of(const Disassembly& disassembly, std::size_t k, const Asse
   std::vector<PartId> present;
   for (PartId id = 0; id < disassembly.parts(); ++id)
     if (disassembly.group(id, k) == disassembly.left_group(k) && !contains(step.parts, id)) present.push_back(id);
-  return {assembly, disassembly.placed(step.parts, k), disassembly.placed(present, k), *step.path, up};
+  return {assembly, disassembly.placed(step.parts, k), disassembly.placed(present, k), *step.path, step.up.value_or(up)};
 }
 
 std::deque<Operation> operations_of(const Disassembly& disassembly, const Assembly& assembly,

@@ -65,11 +65,27 @@ void Recorder::add(const Removal& removal, const DisassemblyStep* earlier) {
     step.planner = earlier->planner;
     step.contacts = earlier->contacts;
   }
+  std::optional<DisassemblyStep> replaced;
   if (continues_last(step)) {
-    step = joined(disassembly_.steps().back(), std::move(step));
+    replaced = disassembly_.steps().back();
+    step = joined(*replaced, std::move(step));
     disassembly_.pop();
   }
   disassembly_.add(std::move(step));
+  if (earlier != nullptr)
+    before_.clear();
+  else
+    before_.push_back(std::move(replaced));
+}
+
+bool Recorder::taken_back(std::size_t count) {
+  if (count > before_.size()) return false;
+  for (; count > 0; --count) {
+    disassembly_.pop();
+    if (before_.back()) disassembly_.add(std::move(*before_.back()));
+    before_.pop_back();
+  }
+  return true;
 }
 
 void Recorder::check_question(const Removal& removal) const {

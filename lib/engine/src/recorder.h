@@ -1,7 +1,9 @@
 /// Records the removals of a run as steps of its disassembly.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "dismantle/disassembly.h"
 #include "dismantle/engine/run.h"
@@ -21,6 +23,8 @@ class Recorder final : public SequenceObserver {
   /// motion. @throws std::logic_error with the problem of the removal, which stops the sequence planner; nothing has
   /// changed then.
   void removed(const Removal& removal, std::size_t /*parts_left*/) override { record(removal, nullptr); }
+  /// Not further back than the first removal that this was given, and none of repeated().
+  bool taken_back(std::size_t count) override;
   /// The same for a step that was planned before: what its search has found out stays as it was.
   void repeated(const Removal& removal, const DisassemblyStep& earlier) { record(removal, &earlier); }
 
@@ -43,6 +47,7 @@ class Recorder final : public SequenceObserver {
   const StepObserver& on_step_;
   const RunContext& context_;
   Disassembly disassembly_;
+  std::vector<std::optional<DisassemblyStep>> before_;  ///< by removal that can be taken back: the step that it replaced
   std::string problem_;
 };
 

@@ -42,7 +42,7 @@ void replay(const Disassembly& earlier, const Assembly& assembly, Oracle& oracle
       throw InputError(assembly.source, fmt::format("step {} of the plan to go on from is not valid here: {}", k + 1,
                                                     answer.result.message));
     }
-    recorder.repeated({step.parts, &answer}, step);
+    recorder.repeated({step.parts, &answer, "", step.up}, step);
   }
 }
 
@@ -78,6 +78,7 @@ Disassembly disassembly_of(const Plan& plan, const Assembly& assembly, std::size
     step.seconds = from.seconds;
     step.depth = from.depth;
     step.planner = from.planner;
+    step.up = from.up;
     for (const std::string& name : from.contacts)
       if (const auto part = std::find_if(assembly.parts.begin(), assembly.parts.end(),
                                          [&](const Part& p) { return p.name == name; });

@@ -245,6 +245,8 @@ class Run {
     for (const auto& [a, b] : part_precedence(done, needed))
       result.precedence.emplace_back(assembly_.parts[a].name, assembly_.parts[b].name);
     judge(result.plan, done, assembly_, setup_.objective, context_);
+    if (sequence_.least_cost && !result.plan.objective.empty())
+      result.plan.objective.least_cost = std::min(*sequence_.least_cost, result.plan.objective.cost);
     if (!puts_together) return;
     result.plan.assembly_steps = std::move(back.steps);
     result.plan.assembly_status = back.status;

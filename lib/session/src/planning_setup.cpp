@@ -32,6 +32,14 @@ PluginChoice with_last_resort(const RunConfig& config, const Registry& registry)
   return {"chain", {{"of", std::vector<PluginChoice>{config.sequence_planner, {"least_cut", {}, {}}}}}, {}};
 }
 
+/// The same in a `best_order`, if there is an objective.
+PluginChoice with_best_order(const RunConfig& config, const Registry& registry, PluginChoice sequence) {
+  if (!config.run.best_order || config.objective.empty() || names(sequence, "best_order") ||
+      registry.lookup(PluginKind::sequence_planner, "best_order") == nullptr)
+    return sequence;
+  return {"best_order", {{"of", std::move(sequence)}}, {}};
+}
+
 }  // namespace
 
 PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registry) {
@@ -40,7 +48,7 @@ PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registr
   out.path_planner = [&registry, choice = config.path_planner] {
     return registry.create<PathPlanner>(choice.type, choice.parameters);
   };
-  const PluginChoice sequence = with_last_resort(config, registry);
+  const PluginChoice sequence = with_best_order(config, registry, with_last_resort(config, registry));
   out.sequence_planner = registry.create<SequencePlanner>(sequence.type, sequence.parameters);
   out.path_planner_id = config.path_planner.type;
   out.sequence_planner_id = config.sequence_planner.type;

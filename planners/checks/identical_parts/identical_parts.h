@@ -16,7 +16,7 @@ namespace dismantle::checks {
 /// Over a whole plan this counts how often a series of equal parts is interrupted.
 class IdenticalParts final : public StepCheck {
  public:
-  StepCheckTraits traits() const noexcept override { return {.remembers_shape = true}; }
+  StepCheckTraits traits() const noexcept override { return {.remembers_shape = true, .reads_path = false}; }
   StepVerdict judge(const StepQuestion& question, const RunContext& context) const override;
 
  private:

@@ -81,6 +81,15 @@ class Links final : public SequenceObserver {
     all_.removals.push_back(std::move(named));
   }
 
+  bool taken_back(std::size_t count) override {
+    if (count > all_.removals.size() || !observer_.taken_back(count)) return false;
+    for (; count > 0; --count) {
+      disassembly_.pop();
+      all_.removals.pop_back();
+    }
+    return true;
+  }
+
   SequenceResult run() {
     link(0, query_.start, oracle_, time_of_first());
     if (failed()) return finish();  // what a planner did wrong is not hidden by those after it

@@ -225,6 +225,11 @@ class Reader {
         problems_.push_back(key_mark.error(unknown_key_message(key, {label, "", ""}, {"config", "set"}, {})));
       }
     }
+    // Planners are compared by what they find, not by how an objective likes it, unless the suite names one.
+    if (std::ranges::none_of(source.set, [](const std::string& s) { return s.starts_with("objective"); })) {
+      source.set.emplace_back("objective=[]");
+      places.push_back(member.key_mark);
+    }
     load_planner(member.key, source, places, member.key_mark);
   }
 

@@ -59,6 +59,9 @@ void RunSettings::describe(Schema<RunSettings>& s) {
        {"last_resort", ForceWhen::last_resort,
         "they are taken out where they cut in least, in steps that are marked as forced and never count as verified"}},
       "What is done with parts that no verified path was found for. Benchmarks never force.");
+  s.add("best_order", &RunSettings::best_order,
+        {.doc = "Put the sequence planner into a `best_order`, unless it is one or the objective is empty: its plan is "
+                "then put in the order that the objective likes best. Off: the objective judges the plan, no more."});
   s.add(
       "grace", &RunSettings::grace,
       {.unit = "s",
@@ -77,6 +80,12 @@ const std::vector<std::pair<std::string, std::vector<ParamSpec>>>& fixed_section
   return sections;
 }
 
+namespace {
+
+ParamSet weight_of(double weight) { return {{"weight", weight}}; }
+
+}  // namespace
+
 const std::vector<PluginSection>& plugin_sections() {
   static const std::vector<PluginSection> sections = {
       {"simulator", PluginKind::simulator, {"sdf_penalty"}, &RunConfig::simulator},
@@ -93,11 +102,12 @@ const std::vector<PluginSection>& plugin_sections() {
        .beside = Schema<ProofOptions>().specs()},
       {.name = "objective",
        .kind = PluginKind::step_check,
-       .defaults = {},
+       .defaults = {"directions", "identical_parts"},
        .many = &RunConfig::objective,
        .doc = "Step checks that judge each step as an assembly operation; [] = any order without collisions is as good "
               "as another.",
-       .options = Schema<ObjectiveOptions>().specs()}};
+       .options = Schema<ObjectiveOptions>().specs(),
+       .default_options = {weight_of(1), weight_of(0.3)}}};
   return sections;
 }
 
@@ -115,8 +125,9 @@ ParamSpec plugin_list(const PluginSection& section, const Registry& registry) {
   spec.may_be_empty = true;
   spec.doc = section.doc;
   std::vector<PluginChoice> fallback;
-  for (const std::string& id : section.defaults)
-    if (registry.lookup(section.kind, id) != nullptr) fallback.push_back({id, {}, {}});
+  for (std::size_t k = 0; k < section.defaults.size(); ++k)
+    if (registry.lookup(section.kind, section.defaults[k]) != nullptr)
+      fallback.push_back({section.defaults[k], {}, section.default_options.empty() ? ParamSet{} : section.default_options[k]});
   spec.fallback = std::move(fallback);
   return spec;
 }

@@ -30,6 +30,7 @@ struct RunSettings {
   std::int64_t path_steps = 0;  ///< simulated steps per attempt, 0 = none
   double timeout = 7200;        ///< seconds for the whole run, 0 = none
   ForceWhen force = ForceWhen::last_resort;
+  bool best_order = true;  ///< a planner that does not follow the objective by `best_order` is put into one
   double grace = 30;  ///< seconds that plugins have for stopping after a request to stop, 0 = no limit
   DISMANTLE_API static void describe(Schema<RunSettings>& s);
 };
@@ -150,6 +151,7 @@ struct PluginSection {
   std::string doc{};                 ///< of the list
   std::vector<ParamSpec> options{};  ///< keys of each item of the list, beside the parameters of its type
   std::vector<ParamSpec> beside{};   ///< keys of the section beside the list
+  std::vector<ParamSet> default_options{};  ///< by id of `defaults`: what its item says beside parameters; empty: nothing
   /// "path_planner", "immobility.provers".
   std::string key() const { return list.empty() ? name : name + "." + list; }
 };

@@ -1,0 +1,232 @@
+#include "best_order/best_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "best_order/rewrite.h"
+
+namespace dismantle {
+
+using order::Block;
+using order::CheckFailed;
+using order::Effort;
+using order::kForbidden;
+using order::OrderScene;
+using order::Segment;
+using order::Step;
+using order::VariantId;
+
+void BestOrderParams::describe(Schema<BestOrderParams>& s) {
+  s.add("of", &BestOrderParams::of, {.doc = "The planner whose plan is put in a better order."});
+  s.add("effort", &BestOrderParams::effort,
+        {.unit = "1",
+         .min = 0,
+         .max = 1e9,
+         .doc = "Budget of the search, in judged steps; a tenth of it in tests of pairs of parts. Counted, so that the "
+                "plan does not depend on the machine."});
+}
+
+namespace {
+
+/// Passes removals on, and keeps them.
+class Keeper final : public SequenceObserver {
+ public:
+  Keeper(SequenceObserver& observer, std::string planner) : observer_(observer), planner_(std::move(planner)) {}
+  void removed(const Removal& removal, std::size_t parts_left) override {
+    Removal named = removal;
+    if (named.planner.empty()) named.planner = planner_;
+    observer_.removed(named, parts_left);
+    all.emplace_back(std::move(named), parts_left);
+  }
+  bool taken_back(std::size_t count) override {
+    if (count > all.size() || !observer_.taken_back(count)) return false;
+    all.resize(all.size() - count);
+    return true;
+  }
+  std::vector<std::pair<Removal, std::size_t>> all;
+
+ private:
+  SequenceObserver& observer_;
+  std::string planner_;  // of removals that name none
+};
+
+blocking::Directions with_used(blocking::Directions directions, const std::vector<Removal>& plan,
+                               std::vector<std::size_t>& everywhere) {
+  for (std::size_t d = 0; d < 6; ++d) everywhere.push_back(d);
+  constexpr std::size_t kMost = 12;
+  for (const Removal& removal : plan) {
+    const Path& path = removal.attempt->path();
+    const Eigen::Vector3d way = path.back().front().t - path[path.size() > 1 ? path.size() - 2 : 0].front().t;
+    if (removal.attempt->forced || way.isZero() || everywhere.size() >= kMost) continue;
+    const Eigen::Vector3d unit = way.normalized();
+    std::size_t d = 0;
+    while (d < directions.all.size() && directions.all[d].dot(unit) <= 1 - 1e-9) ++d;
+    if (d == directions.all.size()) {
+      directions.all.push_back(unit);
+      directions.all.push_back(-unit);
+    }
+    if (std::find(everywhere.begin(), everywhere.end(), d) == everywhere.end()) everywhere.push_back(d);
+  }
+  return directions;
+}
+
+/// Finds the order of each segment, and records it if the whole is better.
+class Rewriting {
+ public:
+  Rewriting(const BestOrderParams& params, const SequenceQuery& query, PathOracle& oracle, Keeper& keeper,
+            RunContext& context, std::vector<Removal> plan)
+      : query_(query),
+        keeper_(keeper),
+        context_(context),
+        plan_(std::move(plan)),
+        sweep_(oracle.tolerance() > 0 ? std::make_unique<blocking::PairSweep>(query.assembly, oracle) : nullptr),
+        directions_(with_used(sweep_ ? blocking::directions_of(query.assembly) : blocking::Directions{}, plan_,
+                              everywhere_)),
+        effort_{static_cast<std::uint64_t>(params.effort), [&context] { return context.should_stop(); }},
+        sweeps_{effort_.left / 10, effort_.stop},
+        scene_{query, oracle, context, sweep_.get(), directions_, everywhere_, {std::nullopt}, sweeps_} {
+    const bool turns = std::any_of(query.objective.items.begin(), query.objective.items.end(), [](const ObjectiveItem& i) {
+      return i.check->traits().remembers_orientation;
+    });
+    for (int axis = 0; turns && axis < 6; ++axis) {
+      const Eigen::Vector3d up = (axis % 2 == 0 ? 1 : -1) * Eigen::Vector3d::Unit(axis / 2);
+      if (up.dot(query.objective.up) < 1 - 1e-9) scene_.ups.emplace_back(up);
+    }
+  }
+
+  void run(SequenceResult& result) {
+    const double before = order::cost_of(plan_, query_, context_);
+    std::vector<Block> blocks = order::blocks_of(plan_, scene_);
+    constexpr int kRounds = 4;  // a refusal of the verifier is known in the next one
+    for (int round = 0; round < kRounds && !context_.should_stop(); ++round) {
+      const std::vector<Step> steps = search(blocks);
+      if (!worth_it_ || record(steps, before)) break;
+    }
+    if (bounded_) result.least_cost = std::min(bound_, after_ < kForbidden ? after_ : before);
+    result.counts["order_effort"] = static_cast<double>(spent_);
+    result.counts["order_saved"] = before < kForbidden && after_ < kForbidden ? before - after_ : 0;
+  }
+
+ private:
+  std::vector<Step> search(std::vector<Block>& blocks) {
+    std::vector<Step> steps;
+    bound_ = 0;
+    worth_it_ = false;
+    std::size_t segments = 0;
+    for (const Block& block : blocks) segments += block.segment ? 1 : 0;
+    for (Block& block : blocks) {
+      for (const Removal* removal : block.fixed) steps.push_back({removal, nullptr, order::kNone});
+      if (!block.segment) continue;
+      Segment& segment = *block.segment;
+      Effort own{effort_.left / segments, effort_.stop};
+      const std::uint64_t given = own.left;
+      order::Order best{segment.as_planned(), 0};
+      const order::Task task = segment.task();
+      best.cost = order::cost_of(segment, task, best.variants);
+      const double planned = best.cost;
+      Effort exact{own.left / 2, own.stop};
+      const order::BestFirst found = order::best_first(segment, task, best.cost, exact);
+      own.left = own.left - given / 2 + exact.left;
+      if (found.best.cost < best.cost) best = found.best;
+      if (!found.complete) {
+        Effort wide{own.left / 2, own.stop};
+        const std::uint64_t most = wide.left;
+        if (order::Order other = order::beam(segment, task, wide); other.cost < best.cost) best = std::move(other);
+        own.left -= most - wide.left;
+        order::improve(segment, task, best, own);
+      }
+      spent_ += given - own.left;
+      const double sure = segment.unsure() ? order::lower_bound(segment, task, task.start, order::kNone) : found.bound;
+      bound_ += std::min(sure, best.cost);
+      bounded_ = bounded_ && segment.exact();
+      worth_it_ = worth_it_ || best.cost < planned - 1e-9;
+      for (const VariantId v : best.variants) steps.push_back({nullptr, &segment, v});
+    }
+    return steps;
+  }
+
+  /// False: a step was refused, and is not proposed again.
+  bool record(const std::vector<Step>& steps, double before) {
+    const std::vector<std::pair<Removal, std::size_t>> old = keeper_.all;
+    if (!keeper_.taken_back(old.size())) return true;
+    std::vector<Removal> done;
+    std::vector<PartId> blocked_by;
+    Disassembly now(query_.assembly.parts.size(), query_.start);
+    const auto restore = [&] {
+      keeper_.taken_back(done.size());
+      for (const auto& [removal, left] : old) keeper_.removed(removal, left);
+    };
+    for (const Step& step : steps) {
+      Removal removal = order::verified(step, now, scene_, blocked_by);
+      if (removal.parts.empty()) {
+        restore();
+        if (context_.should_stop() || step.segment == nullptr) return true;
+        const_cast<Segment*>(step.segment)->forbid(step.variant, blocked_by);
+        return false;
+      }
+      now.add(step_of(removal));
+      done.push_back(removal);
+      keeper_.removed(removal, old[done.size() - 1].second);
+      context_.progress("order", done.size(), steps.size());
+    }
+    const double cost = order::cost_of(done, query_, context_);
+    if (cost < before - 1e-9) {
+      after_ = cost;
+    } else {
+      restore();
+    }
+    return true;
+  }
+
+  const SequenceQuery& query_;
+  Keeper& keeper_;
+  RunContext& context_;
+  std::vector<Removal> plan_;
+  std::vector<std::size_t> everywhere_;
+  std::unique_ptr<blocking::PairSweep> sweep_;
+  blocking::Directions directions_;
+  Effort effort_, sweeps_;
+  OrderScene scene_;
+  std::uint64_t spent_ = 0;
+  double bound_ = 0, after_ = kForbidden;
+  bool bounded_ = true, worth_it_ = false;
+};
+
+}  // namespace
+
+BestOrder::BestOrder(const BestOrderParams& params) : params_(params), inner_(params.of.create()) {
+  traits_ = inner_->traits();
+  traits_.follows_objective = true;
+}
+
+SequenceResult BestOrder::plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
+                               RunContext& context) {
+  // The inner planner looks for any plan: to prefer some removals takes it much longer. What is required it has to know.
+  Objective required{{}, query.objective.up};
+  for (const ObjectiveItem& item : query.objective.items)
+    if (item.require) required.items.push_back(item);
+  Keeper keeper(observer, params_.of.type());
+  SequenceResult result =
+      inner_->plan({query.assembly, query.start, query.constraints, required, query.said}, oracle, keeper, context);
+  for (Removal& removal : result.removals)
+    if (removal.planner.empty()) removal.planner = params_.of.type();
+  if (query.objective.empty()) return result;
+  if (result.removals.size() < 2 || context.should_stop() || result.outcome == Outcome::crashed) return result;
+  // The checks may depend on what the inner planner has announced only, which is what was recorded.
+  std::vector<Removal> plan;
+  for (const auto& [removal, left] : keeper.all) plan.push_back(removal);
+  try {
+    Rewriting(params_, query, oracle, keeper, context, plan).run(result);
+  } catch (const CheckFailed& e) {
+    context.log(LogLevel::error, std::string("the order is not improved, a step check failed: ") + e.what());
+  }
+  result.removals.clear();
+  for (const auto& [removal, left] : keeper.all) result.removals.push_back(removal);
+  return result;
+}
+
+}  // namespace dismantle

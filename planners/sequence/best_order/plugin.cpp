@@ -1,0 +1,8 @@
+#include "best_order/best_order.h"
+#include "dismantle/plugin.h"
+
+DISMANTLE_PLUGIN("dismantle.best_order", DISMANTLE_VERSION, "MIT", "") {
+  r.add<dismantle::SequencePlanner, dismantle::BestOrder, dismantle::BestOrderParams>(
+      "best_order", "Takes the plan of another sequence planner and looks for the order that the objective likes best.",
+      {.source = "own; A* over sets of parts with counted effort, then beam search and windows"});
+}

@@ -1,0 +1,151 @@
+#include "best_order/rewrite.h"
+
+#include <algorithm>
+#include <deque>
+#include <map>
+#include <set>
+
+#include "dismantle/part_set.h"
+
+namespace dismantle::order {
+
+namespace {
+
+/// Does the step take parts out of their group for good, without force?
+bool is_plain(const Removal& removal) {
+  const AttemptResult& answer = *removal.attempt;
+  return !answer.forced && !answer.out && !answer.attempt.goal.placement && answer.attempt.goal.any_of.empty() &&
+         answer.path().size() > 1;
+}
+
+bool same_places(const std::vector<PlacedPart>& a, const std::vector<PlacedPart>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const PlacedPart& x, const PlacedPart& y) { return x.part == y.part && x.pose == y.pose; });
+}
+
+}  // namespace
+
+std::vector<Block> blocks_of(const std::vector<Removal>& plan, OrderScene& scene) {
+  Disassembly done(scene.query.assembly.parts.size(), scene.query.start);
+  struct Row {
+    std::vector<PlacedPart> start;
+    std::vector<const Removal*> steps;
+    bool plain = true;
+  };
+  std::map<std::size_t, std::vector<Row>> rows;  // by group, in the order of their making
+  std::set<std::size_t> last;                    // groups whose steps come last
+  std::vector<const Removal*> at_the_end;
+  for (const Removal& removal : plan) {
+    const std::size_t group = done.group(removal.parts.front());
+    if (removal.attempt->forced) last.insert(group);
+    if (last.contains(group)) {
+      at_the_end.push_back(&removal);
+      last.insert(done.group_of_step(done.steps().size()));
+    } else {
+      std::vector<Row>& own = rows[group];
+      const bool plain = is_plain(removal);
+      if (own.empty() || own.back().plain != plain)
+        own.push_back({done.placed(done.groups()[group]), {}, plain});
+      own.back().steps.push_back(&removal);
+    }
+    done.add(step_of(removal));
+  }
+  std::vector<Block> blocks;
+  for (auto& [group, own] : rows)
+    for (Row& row : own) {
+      Block& block = blocks.emplace_back();
+      if (row.plain)
+        block.segment = std::make_unique<Segment>(scene, std::move(row.start), std::move(row.steps));
+      else
+        block.fixed = std::move(row.steps);
+    }
+  blocks.emplace_back().fixed = std::move(at_the_end);
+  return blocks;
+}
+
+double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, const RunContext& context) {
+  Disassembly done(query.assembly.parts.size(), query.start);
+  std::deque<Operation> operations;
+  for (const Removal& removal : plan) {
+    const std::size_t group = done.group(removal.parts.front());
+    const std::vector<PartId> rest = without(done.groups()[group], removal.parts);
+    operations.emplace_front(query.assembly, done.placed(removal.parts), done.placed(rest), removal.attempt->path(),
+                             removal.up.value_or(query.objective.up));
+    done.add(step_of(removal));
+  }
+  std::deque<StepQuestion> alone, questions;
+  for (const Operation& o : operations) alone.push_back(o.question());
+  for (std::size_t k = 0; k < operations.size(); ++k)
+    questions.push_back(operations[k].question(k == 0 ? nullptr : &alone[k - 1]));
+  double sum = 0;
+  try {
+    for (const StepQuestion& question : questions) {
+      const ObjectiveVerdict verdict = query.objective.judge(question, context);
+      if (verdict.refused) return kForbidden;
+      sum += verdict.cost;
+    }
+    const std::vector<StepQuestion> all(questions.begin(), questions.end());
+    for (const ObjectiveItem& item : query.objective.items)
+      if (item.check->traits().judges_plan) sum += item.weight * item.check->judge_plan(all, context).cost;
+  } catch (const std::exception& e) {
+    throw CheckFailed(e.what());
+  }
+  return sum;
+}
+
+Removal verified(const Step& step, const Disassembly& now, OrderScene& scene, std::vector<PartId>& blocked_by) {
+  const Motion* motion = step.segment == nullptr ? nullptr : &step.segment->motion(step.variant);
+  const Removal* planned = motion == nullptr ? step.planned : motion->planned;
+  Removal removal;
+  removal.parts = motion == nullptr ? planned->parts : motion->parts;
+  removal.up = motion == nullptr ? planned->up : step.segment->up(step.variant);
+  Attempt attempt{now.placed(removal.parts), now.placed(without(now.groups()[now.group(removal.parts.front())], removal.parts))};
+  if (planned != nullptr && same_places(planned->attempt->attempt.moving, attempt.moving) &&
+      same_places(planned->attempt->attempt.fixed, attempt.fixed)) {
+    removal.attempt = planned->attempt;
+    removal.planner = planned->planner;
+    return removal;
+  }
+  if (planned != nullptr) attempt.goal = planned->attempt->attempt.goal;
+  // Parts of a group that has left are elsewhere than in the first plan: the path moves with them.
+  const PlacedPart& first = attempt.moving.front();
+  const auto& from = planned != nullptr ? planned->attempt->attempt.moving : step.segment->start();
+  const auto then = std::find_if(from.begin(), from.end(), [&](const PlacedPart& p) { return p.part == first.part; });
+  const Pose shift = first.pose * then->pose.inverse();
+  Path path;
+  Eigen::Vector3d out;
+  if (motion != nullptr && motion->direction) {
+    out = shift.q * scene.directions.all[*motion->direction];
+    path.emplace_back();
+    for (const PlacedPart& p : attempt.moving) path.front().push_back(p.pose);
+  } else {
+    for (const auto& poses : planned->attempt->path()) {
+      path.emplace_back();
+      for (const Pose& pose : poses) path.back().push_back(shift * pose);
+    }
+    for (std::size_t i = 0; i < attempt.moving.size(); ++i) path.front()[i] = attempt.moving[i].pose;
+    out = motion == nullptr ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Eigen::Vector3d(shift.q * -motion->insertion);
+  }
+  if (scene.sweep != nullptr && !out.isZero()) {
+    std::vector<PlacedPart> at_end = attempt.moving;
+    for (std::size_t i = 0; i < at_end.size(); ++i) at_end[i].pose = path.back()[i];
+    double most = 0;
+    for (const auto* list : {&attempt.moving, &attempt.fixed})
+      for (const PlacedPart& p : *list) most += scene.query.assembly.parts[p.part].mesh->box().size().norm();
+    for (const PlacedPart& p : attempt.fixed) most = std::max(most, 2 * (p.pose.t - at_end.front().pose.t).norm());
+    const double length = scene.sweep->distance_apart(at_end, attempt.fixed, out, most);
+    if (length > 0 || path.size() < 2) {
+      path.emplace_back();
+      for (const PlacedPart& p : at_end)
+        path.back().push_back({p.pose.t + (length + scene.sweep->tolerance()) * out, p.pose.q});
+    }
+  }
+  const AttemptResult& answer = scene.oracle.propose(attempt, path, scene.context);
+  blocked_by = answer.result.blocked_by;
+  if (!is_success(answer.result.outcome())) return {};
+  removal.attempt = &answer;
+  removal.planner = planned == nullptr || !planned->attempt->proposed ? "" : planned->planner;
+  return removal;
+}
+
+}  // namespace dismantle::order

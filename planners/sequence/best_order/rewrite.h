@@ -1,0 +1,36 @@
+/// From a plan to segments that can be put in another order, and back.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "best_order/segment.h"
+
+namespace dismantle::order {
+
+/// A step that is to be recorded: one of the first plan, or a variant.
+struct Step {
+  const Removal* planned = nullptr;  ///< its path is used if `segment` is null or says so
+  const Segment* segment = nullptr;
+  VariantId variant = kNone;
+};
+
+/// A row of steps: a segment, or steps that keep their order.
+struct Block {
+  std::unique_ptr<Segment> segment;
+  std::vector<const Removal*> fixed;
+};
+
+/// Splits a plan. Steps of one group come before those of the groups that it made, in the order of their making. What
+/// moves parts and leaves them in their group stays where it is in its group; from the first forced step of a group on
+/// everything of that group and of those that it makes comes last of all, in the order of the plan.
+std::vector<Block> blocks_of(const std::vector<Removal>& plan, OrderScene& scene);
+
+/// Cost of a plan, as the engine judges it.
+double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, const RunContext& context);
+
+/// A removal that the oracle has accepted, in the state `now`; for a refusal its parts are empty.
+Removal verified(const Step& step, const Disassembly& now, OrderScene& scene, std::vector<PartId>& blocked_by);
+
+}  // namespace dismantle::order

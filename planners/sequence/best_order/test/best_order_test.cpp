@@ -1,0 +1,280 @@
+// The order of a plan, compared with the cheapest of all orders of blocks on a lattice, which a search of its own finds.
+#include "best_order/best_order.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dismantle/testing/run_rig.h"
+#include "dismantle/verification/check_plan.h"
+
+namespace dismantle {
+namespace {
+
+using Eigen::Vector3d;
+
+const std::array<Vector3d, 6> kAxes{Vector3d::UnitX(),  -Vector3d::UnitX(), Vector3d::UnitY(),
+                                    -Vector3d::UnitY(), Vector3d::UnitZ(),  -Vector3d::UnitZ()};
+
+/// Costs of an operation: of its direction, of a change of it, and of the number of parts that are there.
+struct Prices {
+  std::array<double, 6> direction{};
+  double change = 1, present = 0;
+  double of(PartId part, std::size_t insertion, std::size_t present_parts, std::optional<std::size_t> before) const {
+    const double crowd = part % 2 == 0 ? present * static_cast<double>(present_parts) : 0;
+    return direction[insertion] + crowd + (before && *before != insertion ? change : 0);
+  }
+};
+
+std::size_t axis_of(const Vector3d& direction) {
+  std::size_t best = 0;
+  for (std::size_t d = 1; d < 6; ++d)
+    if (kAxes[d].dot(direction) > kAxes[best].dot(direction)) best = d;
+  return best;
+}
+
+class Priced final : public StepCheck {
+ public:
+  explicit Priced(const Prices& prices) : prices_(prices) {}
+  StepCheckTraits traits() const noexcept override {
+    return {.remembers_direction = true, .reads_present = prices_.present > 0, .reads_path = false};
+  }
+  StepVerdict judge(const StepQuestion& q, const RunContext&) const override {
+    std::optional<std::size_t> before;
+    if (q.previous != nullptr) before = axis_of(q.previous->direction);
+    StepVerdict verdict;
+    verdict.cost = prices_.of(q.moving.front().part, axis_of(q.direction), q.present.size(), before);
+    return verdict;
+  }
+
+ private:
+  Prices prices_;
+};
+
+/// Blocks of cells on a lattice.
+struct Lattice {
+  static constexpr int kSize = 3;
+  std::map<std::array<int, 3>, PartId> cells;
+  PartId parts = 0;
+
+  static Lattice random(Rng& rng) {
+    Lattice lattice;
+    lattice.parts = 3 + static_cast<PartId>(rng.below(4));
+    std::set<PartId> used;
+    for (int x = 0; x < kSize; ++x)
+      for (int y = 0; y < kSize; ++y)
+        for (int z = 0; z < 2; ++z)
+          if (rng.uniform() < 0.85) used.insert(lattice.cells[{x, y, z}] = static_cast<PartId>(rng.below(lattice.parts)));
+    return used.size() == lattice.parts ? lattice : random(rng);
+  }
+
+  Assembly assembly() const {
+    std::vector<std::pair<std::string, std::vector<fake::Box>>> all(parts);
+    for (PartId id = 0; id < parts; ++id) all[id].first = "p" + std::to_string(id);
+    const Vector3d gap = Vector3d::Constant(0.05), one = Vector3d::Ones();
+    for (const auto& [at, id] : cells) {
+      const Vector3d lo(at[0], at[1], at[2]);
+      all[id].second.push_back({lo + gap, lo + one - gap});
+    }
+    return fake::assembly_of(all);
+  }
+
+  /// Is a cell of `other` somewhere behind one of `part`, along the axis?
+  bool blocks(PartId part, PartId other, std::size_t axis) const {
+    for (const auto& [at, id] : cells) {
+      if (id != part) continue;
+      std::array<int, 3> next = at;
+      for (int k = 0; k < kSize; ++k) {
+        next[axis / 2] += axis % 2 == 0 ? 1 : -1;
+        if (const auto cell = cells.find(next); cell != cells.end() && cell->second == other) return true;
+      }
+    }
+    return false;
+  }
+};
+
+/// The cheapest order of single parts, by all orders.
+class AllOrders {
+ public:
+  AllOrders(const Lattice& lattice, const Prices& prices) : lattice_(lattice), prices_(prices) {}
+  /// Of everything before the removal of `last` along `axis` was done, which left `present` behind.
+  double cheapest(unsigned present, std::optional<std::pair<PartId, std::size_t>> last) {
+    const auto key = std::pair(present, last);
+    if (const auto known = known_.find(key); known != known_.end()) return known->second;
+    const auto settled = [&](std::optional<std::size_t> next) {
+      return last ? prices_.of(last->first, last->second ^ 1U, static_cast<std::size_t>(std::popcount(present)),
+                               next ? std::optional<std::size_t>(*next ^ 1U) : std::nullopt)
+                  : 0;
+    };
+    double best = std::numeric_limits<double>::infinity();
+    if (std::popcount(present) == 1) best = settled(std::nullopt);
+    for (PartId id = 0; id < lattice_.parts && std::popcount(present) > 1; ++id)
+      for (std::size_t axis = 0; axis < 6 && (present >> id & 1U) != 0; ++axis) {
+        bool free = true;
+        for (PartId other = 0; other < lattice_.parts; ++other)
+          free = free && (other == id || (present >> other & 1U) == 0 || !lattice_.blocks(id, other, axis));
+        if (free) best = std::min(best, settled(axis) + cheapest(present & ~(1U << id), std::pair(id, axis)));
+      }
+    return known_[key] = best;
+  }
+
+ private:
+  const Lattice& lattice_;
+  const Prices& prices_;
+  std::map<std::pair<unsigned, std::optional<std::pair<PartId, std::size_t>>>, double> known_;
+};
+
+RunResult plan_of(const Assembly& assembly, const Objective& objective, std::shared_ptr<SequencePlanner> inner,
+                  double effort, const RunOptions& options = {}, RunContext context = {}) {
+  BestOrderParams params;
+  params.effort = effort;
+  params.of = {PluginChoice{"inner", {}, {}},
+               [inner](PluginKind, const PluginChoice&) -> std::shared_ptr<void> { return inner; }};
+  PlanningSetup setup = fake::setup(fake::push, std::make_shared<BestOrder>(params));
+  setup.objective = objective;
+  RunResult result = run(assembly, setup, options, context);
+  const PlanCheck check = check_plan(result.plan, assembly, options.verify, context, {});
+  EXPECT_TRUE(check.valid) << (check.problems.empty() ? "" : check.problems.front().message);
+  return result;
+}
+
+Objective priced(const Prices& prices) { return {{{"priced", std::make_shared<Priced>(prices), 1, false}}}; }
+
+TEST(BestOrder, IsTheCheapestOfAllOrdersOfBlocksOnALattice) {
+  Rng rng(53);
+  unsigned compared = 0, improved = 0;
+  for (int trial = 0; trial < 24; ++trial) {
+    const Lattice lattice = Lattice::random(rng);
+    Prices prices;
+    for (double& price : prices.direction) price = 0.25 * static_cast<double>(rng.below(4));
+    prices.present = trial % 2 == 0 ? 0 : 0.25;
+    const double truth = AllOrders(lattice, prices).cheapest((1U << lattice.parts) - 1, std::nullopt);
+    if (!(truth < std::numeric_limits<double>::infinity())) continue;
+    ++compared;
+    const Assembly assembly = lattice.assembly();
+    const RunResult best = plan_of(assembly, priced(prices), std::make_shared<fake::InTurn>(), 1e6);
+    ASSERT_EQ(best.plan.status, PlanStatus::complete) << trial;
+    EXPECT_NEAR(best.plan.objective.cost, truth, 1e-9) << trial;
+    ASSERT_TRUE(best.plan.objective.least_cost.has_value());
+    EXPECT_NEAR(*best.plan.objective.least_cost, truth, 1e-9) << trial;
+    improved += best.sequence_counts.at("order_saved") > 0 ? 1 : 0;
+    // With little effort the bound still holds.
+    const RunResult poor = plan_of(assembly, priced(prices), std::make_shared<fake::InTurn>(), 60);
+    EXPECT_LE(*poor.plan.objective.least_cost, truth + 1e-9) << trial;
+    EXPECT_GE(poor.plan.objective.cost, truth - 1e-9) << trial;
+  }
+  EXPECT_GT(compared, 8u);
+  EXPECT_GT(improved, 4u);
+}
+
+TEST(BestOrder, WithoutAnObjectiveThePlanIsThatOfTheInnerPlannerToTheLastBit) {
+  const Assembly assembly = fake::row(6);
+  const RunResult inner = fake::run_in_turn(assembly);
+  const RunResult best = plan_of(assembly, {}, std::make_shared<fake::InTurn>(), 1e5);
+  EXPECT_EQ(fake::text_without_times(best.plan), fake::text_without_times(inner.plan));
+}
+
+TEST(BestOrder, KeepsTheInnerPlanWithoutEffort) {
+  const Assembly assembly = fake::row(6);
+  Prices prices;
+  prices.direction = {3, 2, 1, 4, 5, 6};
+  const RunResult cheap = plan_of(assembly, priced(prices), std::make_shared<fake::InTurn>(), 1e5);
+  const RunResult none = plan_of(assembly, priced(prices), std::make_shared<fake::InTurn>(), 0);
+  EXPECT_LT(cheap.plan.objective.cost, none.plan.objective.cost);
+  EXPECT_EQ(none.plan.status, PlanStatus::complete);
+  EXPECT_EQ(none.sequence_counts.at("order_saved"), 0);
+}
+
+TEST(BestOrder, ACheckThatThrowsLeavesThePlanAsItIs) {
+  class Throws final : public StepCheck {
+   public:
+    StepCheckTraits traits() const noexcept override { return {}; }
+    StepVerdict judge(const StepQuestion&, const RunContext&) const override { throw std::runtime_error("broken"); }
+  };
+  RunContext context;
+  unsigned errors = 0;
+  context.on_log = [&](LogLevel level, std::string_view) { errors += level == LogLevel::error ? 1 : 0; };
+  const RunResult r = plan_of(fake::row(4), {{{"throws", std::make_shared<Throws>(), 1, false}}},
+                              std::make_shared<fake::InTurn>(), 1e5, {}, context);
+  EXPECT_EQ(r.plan.status, PlanStatus::complete);
+  EXPECT_GT(errors, 0u);
+}
+
+/// The whole is turned when that is cheaper: blocks come from above, seen as it lies.
+TEST(BestOrder, TurnsTheWholeWhereThatCostsLess) {
+  class FromAbove final : public StepCheck {
+   public:
+    StepCheckTraits traits() const noexcept override {
+      return {.remembers_orientation = true, .reads_present = false, .reads_path = false};
+    }
+    StepVerdict judge(const StepQuestion& q, const RunContext&) const override {
+      StepVerdict verdict;
+      verdict.cost = q.direction.dot(-q.up) > 0.9 ? 0 : 10;
+      if (q.previous != nullptr && q.previous->up.dot(q.up) < 0.9) verdict.cost += 1;
+      return verdict;
+    }
+  };
+  // The tube is open at +x when it is turned; its blocks leave only there.
+  Assembly assembly = fake::tube_with_blocks(3);
+  for (Part& part : assembly.parts) {
+    Mesh turned = *part.mesh;
+    for (Vector3d& v : turned.vertices) v = {v.z(), v.x(), v.y()};
+    part.mesh = part.surface = std::make_shared<const Mesh>(std::move(turned));
+  }
+  const RunResult r =
+      plan_of(assembly, {{{"above", std::make_shared<FromAbove>(), 1, false}}}, std::make_shared<fake::InTurn>(), 1e5);
+  ASSERT_EQ(r.plan.status, PlanStatus::complete);
+  EXPECT_EQ(r.plan.objective.cost, 0);
+  for (const PlanStep& step : r.plan.disassembly) {
+    ASSERT_TRUE(step.up.has_value());
+    EXPECT_GT(std::abs(step.up->x()), 0.9);  // or the tube is put over the blocks
+  }
+  ASSERT_TRUE(r.plan.objective.least_cost.has_value());
+  EXPECT_EQ(*r.plan.objective.least_cost, 0);
+}
+
+TEST(BestOrder, KeepsConstraints) {
+  const Assembly assembly = fake::row(5);
+  Prices prices;
+  prices.direction = {3, 2, 1, 4, 5, 6};
+  RunOptions options;
+  options.constraints.base = {2};
+  options.constraints.before = {{4, 0}, {3, 1}};
+  class Keeps final : public SequencePlanner {  // as InTurn, from the last part to the first
+   public:
+    SequencePlannerTraits traits() const noexcept override { return {.keeps_constraints = true, .any_start = true}; }
+    SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
+                        RunContext& context) override {
+      SequenceResult result;
+      std::vector<PlacedPart> left = query.start.front();
+      for (const PartId id : {4, 3, 1, 0}) {
+        const auto at = std::find_if(left.begin(), left.end(), [&](const PlacedPart& p) { return p.part == id; });
+        result.removals.push_back({{id}, &oracle.attempt(fake::InTurn::question(left, *at), context)});
+        left.erase(at);
+        observer.removed(result.removals.back(), left.size());
+      }
+      result.outcome = Outcome::solved;
+      return result;
+    }
+  };
+  const RunResult r = plan_of(assembly, priced(prices), std::make_shared<Keeps>(), 1e5, options);
+  ASSERT_EQ(r.plan.status, PlanStatus::complete);
+  std::map<std::string, std::size_t> place;
+  for (const PlanStep& step : r.plan.disassembly) place[step.moves.front().part] = place.size();
+  EXPECT_EQ(place.size(), 4u);
+  EXPECT_FALSE(place.contains("block2"));
+  EXPECT_LT(place["block4"], place["block0"]);
+  EXPECT_LT(place["block3"], place["block1"]);
+}
+
+}  // namespace
+}  // namespace dismantle
