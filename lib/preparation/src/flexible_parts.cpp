@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "dismantle/fasteners/strands.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/strand.h"
 #include "dismantle/geometry/triangle_bvh.h"
@@ -13,19 +14,6 @@ namespace dismantle {
 namespace {
 
 using geometry::Strand;
-
-/// Defines coil and loop, as contact.cpp defines the contact classes. The numbers are not parameters, because a plan
-/// must be verified with the same ones.
-std::optional<Flexible> kind_of(const Strand& strand) {
-  if (strand.share > 1.05) return std::nullopt;  // more than its volume: a hollow strand is a pipe
-  // A loop has no ends, so its strand is all of its volume. Its section is round: that of a hexagon has a roundness of
-  // 0.907, that of a square 0.785. Rings of bearings, washers and frames have flatter ones.
-  if (strand.closed && strand.share >= 0.95 && strand.roundness >= 0.88) return Flexible::loop;
-  // The ends of springs are ground, or lie on the coils beside them: a quarter of the volume may be in them. Hooks,
-  // clips and handles have less than two full turns.
-  if (strand.share >= 0.75 && strand.coils >= 2) return Flexible::coil;
-  return std::nullopt;
-}
 
 /// Share of the loop's turns along which its surface is inside the other part.
 double clasped(const Strand& loop, const TriangleBvh& other) {
@@ -55,7 +43,7 @@ double flexible_depth(const Part& part) {
 
 std::optional<Flexible> flexible_shape(const Mesh& mesh) {
   const auto strand = geometry::follow_strand(mesh);
-  return strand ? kind_of(*strand) : std::nullopt;
+  return strand ? fasteners::strand_kind(*strand) : std::nullopt;
 }
 
 std::vector<FlexiblePart> recognise_flexible(Assembly& assembly, const RunContext& context,
@@ -79,7 +67,7 @@ std::vector<FlexiblePart> recognise_flexible(Assembly& assembly, const RunContex
       [&](std::size_t i) {
         const PartId part = asked[i];
         const auto strand = geometry::follow_strand(*assembly.parts[part].mesh);
-        kinds[i] = strand ? kind_of(*strand) : std::nullopt;
+        kinds[i] = strand ? fasteners::strand_kind(*strand) : std::nullopt;
         if (kinds[i] == Flexible::loop)  // a part in less than a quarter of its turns is another link of a chain
           std::erase_if(pairs[part], [&](std::size_t pair) {
             return clasped(*strand, TriangleBvh(*assembly.parts[other_of(part, pair)].mesh)) < 0.25;

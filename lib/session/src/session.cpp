@@ -10,6 +10,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/executor.h"
+#include "dismantle/fasteners/recognise.h"
 #include "dismantle/host/suggest.h"
 #include "dismantle/preparation/flexible_parts.h"
 #include "importers.h"
@@ -145,6 +146,7 @@ LoadedAssembly Session::load(InputParts parts, const std::string& source, const 
     }
   }();
   add_findings(parts, report);
+  fasteners::recognise_kinds(assembly, context);
   assembly.import_params = import_params_of(config(), *registry_);
   assembly.reference_order = reference_order_of(parts.reference_order, assembly);
   declare_overlaps(constraints, assembly);

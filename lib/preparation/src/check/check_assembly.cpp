@@ -7,6 +7,7 @@
 #include <memory>
 #include <tuple>
 
+#include "check/kinds.h"
 #include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/verification/contact.h"
 #include "dismantle/verification/interruptible_depth.h"
@@ -321,6 +322,7 @@ AssemblyCheck check_assembly(const Assembly& assembly, const PrepareReport& repo
   add_flexible_findings(report, assembly.normalization.scale, check);
   Geometry(assembly, tolerance, context).add_findings(check);
   sort_findings(check);
+  check.kinds = checked_kinds(assembly);
   return check;
 }
 

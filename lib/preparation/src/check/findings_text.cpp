@@ -4,6 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "check/kinds.h"
 #include "dismantle/preparation/check_assembly.h"
 
 namespace dismantle {
@@ -71,6 +72,7 @@ std::string findings_text(const AssemblyCheck& check, const std::string& source,
   std::string out =
       fmt::format("{}: {} part{}, {} usable\n", source, check.parts, check.parts == 1 ? "" : "s", check.usable);
   out += contacts_text(check);
+  out += kinds_text(check.kinds, verbose);
   for (const Finding& f : check.findings) {
     out += fmt::format("{}: {}", to_string(f.severity), f.message);
     if (f.at) out += fmt::format(", at ({:.6g}, {:.6g}, {:.6g})", f.at->x(), f.at->y(), f.at->z());
@@ -107,6 +109,14 @@ std::string findings_json(const AssemblyCheck& check) {
   }
   json["contacts"] = nlohmann::ordered_json::array();
   for (const CheckedContact& c : check.contacts) json["contacts"].push_back(contact_json(c));
+  json["kinds"] = nlohmann::ordered_json::array();
+  for (const CheckedKind& k : check.kinds)
+    json["kinds"].push_back({{"kind", k.kind.kind},
+                             {"size", k.kind.size},
+                             {"confidence", k.kind.confidence},
+                             {"reason", k.kind.reason},
+                             {"stated", k.kind.stated},
+                             {"parts", k.parts}});
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -55,12 +55,19 @@ struct CheckedContact {
   OverlapPlace place;  ///< input units; only its class where they do not overlap
 };
 
+/// Equal parts, and what they are.
+struct CheckedKind {
+  std::vector<std::string> parts;
+  PartKind kind;
+};
+
 /// Result of check_assembly().
 struct AssemblyCheck {
   std::vector<Finding> findings;  ///< errors first, then warnings, then notes; deeper overlaps first
   std::size_t parts = 0;          ///< in the input
   std::size_t usable = 0;
   std::vector<CheckedContact> contacts;  ///< pairs nearer than 1 % of the assembly's size, in the order of its parts
+  std::vector<CheckedKind> kinds{};      ///< of parts whose kind was looked at, fasteners first; see Part::kind
   std::size_t count(Severity severity) const;
   /// Whether nothing has to be mended: no error, and no warning but those about the reading of the input.
   bool sound() const;
@@ -83,8 +90,8 @@ DISMANTLE_API std::string_view to_string(Severity severity);
 DISMANTLE_API std::string findings_text(const AssemblyCheck& check, const std::string& source, bool verbose = false);
 /// One JSON object: {"parts", "usable", "errors", "warnings", "findings": [{"kind", "severity", "parts", "message",
 /// "advice", "class", "depth", "at", "picture", "details"}], "contacts": [{"parts", "class", "depth", "at", "region",
-/// "share", "axis"}]}; the last five keys of a finding and the last five of a contact are left out if they do not
-/// apply.
+/// "share", "axis"}], "kinds": [{"kind", "size", "confidence", "reason", "stated", "parts"}]}; the last five keys of a
+/// finding and the last five of a contact are left out if they do not apply.
 DISMANTLE_API std::string findings_json(const AssemblyCheck& check);
 
 }  // namespace dismantle

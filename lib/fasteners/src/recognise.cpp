@@ -1,0 +1,157 @@
+#include "dismantle/fasteners/recognise.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dismantle/executor.h"
+#include "dismantle/geometry/congruent_parts.h"
+#include "dismantle/geometry/length_unit.h"
+#include "dismantle/stop_if_asked.h"
+#include "sizes.h"
+
+namespace dismantle::fasteners {
+namespace {
+
+/// Kinds that one shape may be: there the name decides.
+bool alike(Kind shape, Kind name) {
+  using enum Kind;
+  const auto both = [&](std::initializer_list<Kind> kinds) {
+    return std::find(kinds.begin(), kinds.end(), shape) != kinds.end() &&
+           std::find(kinds.begin(), kinds.end(), name) != kinds.end();
+  };
+  return both({washer, spacer, ring}) || both({spacer, bearing, collar, insert, wheel, pulley, coupling}) ||
+         both({pin, shaft}) || both({pulley, gear, wheel}) || both({ring, belt, spring}) ||
+         both({plate, board, housing, rail}) || both({nut, insert, standoff, spacer}) || both({screw, insert});
+}
+
+std::string said(Kind kind, const std::string& size, double length) {
+  const std::string text = size_text(kind, size, length);
+  return text.empty() ? std::string(to_string(kind)) : fmt::format("{} {}", to_string(kind), text);
+}
+
+PartKind made(Kind kind, std::string size, double confidence, std::string reason) {
+  return {std::string(to_string(kind)), std::move(size), std::round(confidence * 100) / 100, std::move(reason)};
+}
+
+/// Both name the same kind: whose size?
+PartKind agreed(Kind kind, const Shape& shape, const NameSays& name) {
+  const bool size_differs =
+      !name.thread.empty() && !shape.size.empty() && name.thread != shape.size && shape.kind == kind;
+  const bool length_differs = name.length > 0 && shape.length > 0 && kind == Kind::screw &&
+                              std::abs(name.length - shape.length) > std::max(0.3, 0.03 * name.length);
+  const std::string by_shape = size_text(kind, shape.size, kind == Kind::screw ? shape.length : 0);
+  const std::string by_name = size_text(kind, name.thread, kind == Kind::screw ? name.length : 0);
+  if ((size_differs && (kind == Kind::screw || kind == Kind::nut)) || length_differs)
+    return made(kind, by_shape, 0.6,
+                fmt::format("shape: {}; the name ('{}') says {}: they disagree", shape.reason, name.reason, by_name));
+  std::string size = shape.size.empty() ? size_text(kind, name.thread, name.length) : by_shape;
+  if (kind == Kind::washer && !name.thread.empty()) size = name.thread;
+  return made(kind, std::move(size), std::min(0.99, std::max(shape.confidence, name.confidence) + 0.05),
+              fmt::format("shape: {}; name: '{}'", shape.reason, name.reason));
+}
+
+}  // namespace
+
+std::string size_text(Kind kind, const std::string& size, double length) {
+  if (kind != Kind::screw || !(length > 0)) return size;
+  return fmt::format("{}x{}", size.empty() ? "?" : size, number(length));
+}
+
+PartKind combined(const Shape& shape, const NameSays& name) {
+  if (!name.kind)
+    return made(shape.kind, size_text(shape.kind, shape.size, shape.length), shape.confidence,
+                fmt::format("shape: {}", shape.reason));
+  const Kind named = *name.kind;
+  if (shape.kind == named) return agreed(named, shape, name);
+  if (shape.kind == Kind::other)
+    return made(named, size_text(named, name.thread, name.length), 0.75 * name.confidence,
+                fmt::format("name: '{}'; shape: {}", name.reason, shape.reason));
+  if (alike(shape.kind, named)) {
+    std::string size =
+        name.thread.empty() && named != Kind::screw ? shape.size : size_text(named, name.thread, name.length);
+    return made(named, std::move(size), name.confidence,
+                fmt::format("name: '{}'; shape: {}", name.reason, shape.reason));
+  }
+  const std::string by_name = said(named, name.thread, name.length);
+  const std::string by_shape = said(shape.kind, shape.size, shape.length);
+  if (shape.confidence >= 0.85)
+    return made(shape.kind, size_text(shape.kind, shape.size, shape.length), 0.5,
+                fmt::format("shape: {}; the name ('{}') says {}: they disagree", shape.reason, name.reason, by_name));
+  return made(named, size_text(named, name.thread, name.length), 0.5,
+              fmt::format("name: '{}'; the shape ({}) says {}: they disagree", name.reason, shape.reason, by_shape));
+}
+
+double millimetres_per_unit(const Assembly& assembly) {
+  const double metres = assembly.unit.empty() ? 1e-3 : metres_in(assembly.unit);
+  return 1000 * metres / assembly.normalization.scale;
+}
+
+/// A ring inside a nut is the nut's.
+static void join_lock_nuts(const Assembly& assembly, std::vector<Shape>& shapes) {
+  const std::vector<Shape> alone = shapes;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const Shape& ring = alone[i];
+    const bool may_be = ring.kind == Kind::washer || ring.kind == Kind::spacer || ring.kind == Kind::wheel ||
+                        ring.kind == Kind::pulley || ring.kind == Kind::ring;
+    if (!may_be || ring.height <= 0) continue;
+    for (std::size_t j = 0; j < shapes.size(); ++j) {
+      const Shape& nut = alone[j];
+      if (nut.kind != Kind::nut || ring.radius > nut.radius || ring.height > nut.height) continue;
+      if (std::abs(nut.axis.dot(ring.axis)) < 0.999) continue;
+      const Eigen::Vector3d middle = ring.top - ring.axis * ring.height / 2 - nut.top;
+      const double along = -middle.dot(nut.axis), across = (middle + along * nut.axis).norm();
+      if (across > 0.05 * nut.radius || along < ring.height / 2 - 0.02 * nut.height ||
+          along > nut.height - ring.height / 2 + 0.02 * nut.height)
+        continue;
+      shapes[i] = nut;
+      shapes[i].confidence = 0.8;
+      shapes[i].reason = fmt::format("ring inside nut '{}'", assembly.parts[j].name);
+      break;
+    }
+  }
+}
+
+std::vector<Shape> shapes_of(const Assembly& assembly, const RunContext& context) {
+  const auto placements = geometry::find_congruent(assembly.parts);
+  std::vector<std::size_t> originals;
+  for (std::size_t i = 0; i < placements.size(); ++i)
+    if (placements[i].original == i) originals.push_back(i);
+  const double mm = millimetres_per_unit(assembly);
+  std::vector<Shape> found(originals.size());
+  const auto look = [&](std::size_t k) {
+    const Part& part = assembly.parts[originals[k]];
+    if (part.open)
+      found[k].reason = "its surface is open";
+    else
+      found[k] = recognise_shape(*part.mesh, mm);
+  };
+  parallel_for(originals.size(), context, look, [&] { return context.should_stop(); });
+  stop_if_asked(context, "kinds of parts");
+  std::vector<Shape> out;
+  for (std::size_t i = 0; i < placements.size(); ++i) {
+    const auto at = std::lower_bound(originals.begin(), originals.end(), placements[i].original) - originals.begin();
+    Shape shape = found[static_cast<std::size_t>(at)];
+    shape.axis = placements[i].pose.q * shape.axis;
+    shape.top = placements[i].pose.q * shape.top + placements[i].pose.t;
+    out.push_back(std::move(shape));
+  }
+  join_lock_nuts(assembly, out);
+  return out;
+}
+
+void recognise_kinds(Assembly& assembly, const RunContext& context, const KindOptions& options) {
+  const std::vector<Shape> shapes = shapes_of(assembly, context);
+  for (Part& part : assembly.parts) {
+    if (part.kind) continue;
+    NameSays name;
+    if (options.names) {
+      if (!part.product.empty()) name = recognise_name(part.product);
+      if (!name.kind) name = recognise_name(part.name);
+    }
+    part.kind = combined(shapes[part.id], name);
+  }
+}
+
+}  // namespace dismantle::fasteners

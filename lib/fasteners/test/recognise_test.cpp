@@ -1,0 +1,103 @@
+#include "dismantle/fasteners/recognise.h"
+
+#include <gtest/gtest.h>
+
+#include "solids.h"
+
+namespace dismantle::fasteners {
+namespace {
+
+using namespace test;
+
+Shape shape_of(Kind kind, double confidence, std::string size = "", double length = 0) {
+  Shape s;
+  s.kind = kind;
+  s.confidence = confidence;
+  s.size = std::move(size);
+  s.length = length;
+  s.reason = "shape";
+  return s;
+}
+
+TEST(CombinedKind, AgreementIsSurerThanEither) {
+  const PartKind kind = combined(shape_of(Kind::screw, 0.9, "M4", 20), recognise_name("DIN 912 M4x20"));
+  EXPECT_EQ(kind.kind, "screw");
+  EXPECT_EQ(kind.size, "M4x20");
+  EXPECT_GT(kind.confidence, 0.95);
+  EXPECT_EQ(kind.reason.find("disagree"), std::string::npos) << kind.reason;
+}
+
+TEST(CombinedKind, SaysWhereShapeAndNameDisagree) {
+  const PartKind size = combined(shape_of(Kind::screw, 0.9, "M4", 25), recognise_name("DIN 912 M4x20"));
+  EXPECT_EQ(size.size, "M4x25");
+  EXPECT_LT(size.confidence, 0.9);
+  EXPECT_NE(size.reason.find("M4x20"), std::string::npos) << size.reason;
+  EXPECT_NE(size.reason.find("disagree"), std::string::npos);
+  const PartKind kind = combined(shape_of(Kind::nut, 0.95, "M4"), recognise_name("M4 Washer"));
+  EXPECT_EQ(kind.kind, "nut");
+  EXPECT_NE(kind.reason.find("disagree"), std::string::npos) << kind.reason;
+  EXPECT_NE(kind.reason.find("washer"), std::string::npos) << kind.reason;
+}
+
+TEST(CombinedKind, TheNameDecidesWhereShapesAreAlike) {
+  EXPECT_EQ(combined(shape_of(Kind::spacer, 0.7), recognise_name("Ball Bearing 5 x 16 x 5")).kind, "bearing");
+  EXPECT_EQ(combined(shape_of(Kind::plate, 0.7), recognise_name("main PCB")).kind, "board");
+  EXPECT_EQ(combined(shape_of(Kind::other, 0), recognise_name("Nema 17 Stepper Motor")).kind, "motor");
+  EXPECT_EQ(combined(shape_of(Kind::other, 0), recognise_name("Body1")).kind, "other");
+}
+
+Part part_of(PartId id, const char* name, Mesh mesh) {
+  Part part;
+  part.id = id;
+  part.name = name;
+  part.mesh = std::make_shared<const Mesh>(std::move(mesh));
+  return part;
+}
+
+Mesh lifted(Mesh mesh, double z) {
+  for (Eigen::Vector3d& p : mesh.vertices) p.z() += z;
+  return mesh;
+}
+
+TEST(RecogniseKinds, UnitsOfFilesAndAssembliesCount) {
+  for (const auto& [unit, mm] : {std::pair{"mm", 1.0}, {"m", 1000.0}, {"inch", 25.4}, {"", 1.0}}) {
+    Assembly assembly;
+    assembly.unit = unit;
+    assembly.normalization.scale = 0.25;
+    Mesh mesh = screw({5, 20, 8.5, 5, {}, polygon(6, 4), 2.5});
+    for (Eigen::Vector3d& p : mesh.vertices) p *= 0.25 / mm;
+    assembly.parts.push_back(part_of(0, "x", mesh));
+    recognise_kinds(assembly, RunContext{});
+    ASSERT_TRUE(assembly.parts[0].kind);
+    EXPECT_EQ(assembly.parts[0].kind->size, "M5x20") << unit;
+  }
+}
+
+TEST(RecogniseKinds, ARingInsideANutIsTheNuts) {
+  Assembly assembly;
+  assembly.parts.push_back(part_of(0, "body", nut(polygon(6, 5.5), 3, 4)));
+  assembly.parts.push_back(part_of(1, "inlay", lifted(ring(4.6, 3, 0.5), 3.2)));
+  assembly.parts.push_back(part_of(2, "washer", lifted(ring(7, 3.2, 0.5), -0.5)));
+  recognise_kinds(assembly, RunContext{});
+  EXPECT_EQ(assembly.parts[0].kind->kind, "nut");
+  EXPECT_EQ(assembly.parts[1].kind->kind, "nut");
+  EXPECT_EQ(assembly.parts[2].kind->kind, "washer");
+}
+
+TEST(RecogniseKinds, KeepsWhatTheUserStates) {
+  Assembly assembly;
+  assembly.parts.push_back(part_of(0, "body", nut(polygon(6, 5.5), 3, 2.4)));
+  assembly.parts[0].kind = PartKind{"housing", "", 1, "stated", true};
+  recognise_kinds(assembly, RunContext{});
+  EXPECT_EQ(assembly.parts[0].kind->kind, "housing");
+}
+
+TEST(RecogniseKinds, NoNamesMeansShapesAlone) {
+  Assembly assembly;
+  assembly.parts.push_back(part_of(0, "DIN 912 M4x20", ring(10, 5.1, 6)));
+  recognise_kinds(assembly, RunContext{}, {.names = false});
+  EXPECT_EQ(assembly.parts[0].kind->kind, "spacer");
+}
+
+}  // namespace
+}  // namespace dismantle::fasteners
