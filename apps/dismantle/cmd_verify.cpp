@@ -5,6 +5,7 @@
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/report_text.h"
 #include "dismantle/settings.h"
+#include "dismantle/stability_file.h"
 #include "dismantle/stopped.h"
 
 namespace dismantle::app {
@@ -18,6 +19,7 @@ struct Verify {
 
 int verify(const Verify& options) {
   Console console(options.console);
+  if (is_stability_file(options.plan)) return verify_stability(options.plan, options.assembly, console);
   const Session session = reader(console);
   RunContext context = context_of(session, console);
   const auto [plan, assembly] =
@@ -51,7 +53,7 @@ void add_verify(CLI::App& app, Action& action) {
   auto* command =
       app.add_subcommand("verify", "Check a plan against the original triangles, independently of its planner");
   auto options = std::make_shared<Verify>();
-  command->add_option("PLAN.json", options->plan, "Plan file")->required()->option_text(" ");
+  command->add_option("PLAN.json", options->plan, "Plan file, or stability.json")->required()->option_text(" ");
   command->add_option("--assembly", options->assembly, "The input that the plan is for, if it has moved")
       ->option_text("INPUT");
   command

@@ -20,6 +20,7 @@ using Action = std::function<int()>;
 
 void add_plan(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
+void add_stability(CLI::App& app, Action& action);
 void add_prepare(CLI::App& app, Action& action);
 void add_verify(CLI::App& app, Action& action);
 void add_explain(CLI::App& app, Action& action);

@@ -175,6 +175,7 @@ int main(int argc, char** argv) {
   Action action;
   add_plan(app, action);
   add_check(app, action);
+  add_stability(app, action);
   add_prepare(app, action);
   add_verify(app, action);
   add_explain(app, action);

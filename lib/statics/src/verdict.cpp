@@ -23,14 +23,14 @@ std::string_view to_string(Verdict verdict) {
 }
 
 Judgement judge(const Pile& pile, const std::function<bool()>& stop) {
+  Balance any = balance(pile, FrictionLaw::associated, stop);
+  if (!any.balanced && check_fall(pile, any.falling).empty()) return {Verdict::falls, {}, {}, std::move(any.falling)};
   Balance created = balance(pile, FrictionLaw::coulomb, stop);
   if (created.balanced && check_equilibrium(pile, created.forces).empty() &&
       check_created(pile, created.forces, created.displacement).empty())
     return {Verdict::stands, std::move(created.forces), std::move(created.displacement), {}};
-  Balance any = balance(pile, FrictionLaw::associated, stop);
-  if (any.balanced && check_equilibrium(pile, any.forces).empty())
+  if (any.balanced && !created.balanced && check_equilibrium(pile, any.forces).empty() && !(stop && stop()))
     return {Verdict::pressed_in, std::move(any.forces), {}, std::move(created.falling)};
-  if (!any.balanced && check_fall(pile, any.falling).empty()) return {Verdict::falls, {}, {}, std::move(any.falling)};
   return {};
 }
 

@@ -45,10 +45,4 @@ inline Pile pile_of(const std::vector<Mesh>& meshes, std::size_t fixed, double f
   return pile;
 }
 
-/// Turns gravity as a tilt of everything about `axis` does.
-inline Pile tilted(Pile pile, const Eigen::Vector3d& axis, double angle) {
-  pile.down = Eigen::AngleAxisd(-angle, axis) * pile.down;
-  return pile;
-}
-
 }  // namespace dismantle::statics::testing

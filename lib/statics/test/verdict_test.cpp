@@ -8,6 +8,8 @@
 #include <random>
 
 #include "dismantle/statics/certificates.h"
+#include "dismantle/statics/holds.h"
+#include "dismantle/statics/limits.h"
 #include "piles.h"
 
 namespace dismantle::statics {

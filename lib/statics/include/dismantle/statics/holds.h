@@ -1,0 +1,30 @@
+/// The least number of bodies that must be held so that a pile stands.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "dismantle/export.h"
+#include "dismantle/statics/verdict.h"
+
+namespace dismantle::statics {
+
+/// Result of least_holds().
+struct Holds {
+  bool found = false;                                ///< with `held` fixed the pile stands
+  bool proved = false;                               ///< no fewer do
+  std::vector<std::uint32_t> held{};                 ///< ascending
+  std::vector<std::vector<std::uint32_t>> groups{};  ///< one of each must be held; no smaller set meets all of them
+};
+
+/// A held body does not move. A group is a set of bodies that does not stand although everything else is held; so one
+/// of it must be held. A minimum set that meets all groups either stands or gives another group.
+DISMANTLE_API Holds least_holds(const Pile& pile, const std::function<bool()>& stop = {});
+
+/// The bodies that move, in groups that touch.
+DISMANTLE_API std::vector<std::vector<std::uint32_t>> moving_groups(const Pile& pile, const Motions& motion);
+
+/// A smallest set that meets every group; the same one for the same groups.
+DISMANTLE_API std::vector<std::uint32_t> minimum_hitting_set(const std::vector<std::vector<std::uint32_t>>& groups);
+
+}  // namespace dismantle::statics

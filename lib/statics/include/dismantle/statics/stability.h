@@ -1,0 +1,80 @@
+/// Statics of an assembly: `dismantle stability`.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dismantle/assembly.h"
+#include "dismantle/export.h"
+#include "dismantle/statics/contacts.h"
+#include "dismantle/statics/holds.h"
+#include "dismantle/statics/limits.h"
+
+namespace dismantle::statics {
+
+/// Standard gravity, m/s2.
+inline constexpr double kGravity = 9.80665;
+
+/// What is assumed about an assembly.
+struct StabilityOptions {
+  std::vector<bool> fixed{};                                ///< by part; empty: none
+  bool table = true;                                        ///< a table touches the lowest point and tilts along
+  double friction = 0.4;                                    ///< of all contacts
+  std::vector<double> density{};                            ///< g/cm3, by part; empty: of the file, or 1
+  std::vector<std::optional<double>> mass{};                ///< kg, by part; overrides densities
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();            ///< unit
+  std::vector<std::pair<Eigen::Vector3d, double>> tilts{};  ///< axis (unit) and angle (rad), one after the other
+  double touching = kTouching;                              ///< as in contacts.h
+};
+
+/// The contacts of an assembly as it is, in input units.
+class DISMANTLE_API AssemblyPile {
+ public:
+  AssemblyPile(const Assembly& assembly, StabilityOptions options);
+  /// The bodies are the parts in their order, and the table as the last one. Weights in newton, lengths in input units.
+  /// `factor` multiplies the tolerance of contacts.
+  Pile pile(double factor = 1) const;
+  const StabilityOptions& options() const { return options_; }
+  bool unit_known() const;
+
+ private:
+  const Assembly& assembly_;
+  StabilityOptions options_;
+  std::vector<Shape> shapes_;
+};
+
+/// A part that moves, and where to.
+struct PartMove {
+  PartId part = 0;
+  Eigen::Vector3d direction;  ///< unit
+};
+
+/// Everything that `dismantle stability` says.
+struct StabilityReport {
+  Pile pile;                             ///< at the stated tolerance and tilt
+  Judgement judgement;                   ///< its verdict is `uncertain` if it changes with the tolerance
+  std::vector<Verdict> at_tolerances{};  ///< at half, once and twice the tolerance of contacts
+  Holds holds{};
+  std::vector<PartMove> moves{};
+  std::optional<double> tilt_x{}, tilt_y{}, tilt_back_x{}, tilt_back_y{};  ///< rad; none: more than 89 degrees
+  std::vector<LeastPush> pushes{};                                         ///< smallest first
+  bool pushes_left_out = false;                                            ///< too many parts
+  std::vector<std::pair<double, Verdict>> by_friction{};
+};
+
+/// Judges an assembly. `stop`: true ends it with what is known.
+DISMANTLE_API StabilityReport judge_assembly(const AssemblyPile& assembly, const std::function<bool()>& stop = {});
+
+/// The report as JSON text: the verdict and all that depends on it.
+DISMANTLE_API std::string report_json(const StabilityReport& report, const Assembly& assembly,
+                                      const AssemblyPile& pile);
+/// The certificate as JSON text: the model and the forces or the motion.
+DISMANTLE_API std::string certificate_json(const StabilityReport& report, const Assembly& assembly);
+/// Checks a stability.json without the solver; the contacts are found again. Empty: it holds; otherwise what is wrong.
+/// @throws InputError when it cannot be read.
+DISMANTLE_API std::string check_stability_json(const std::string& text, const AssemblyPile& assembly);
+
+}  // namespace dismantle::statics

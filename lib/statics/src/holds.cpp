@@ -1,0 +1,133 @@
+#include "dismantle/statics/holds.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "dismantle/geometry/disjoint_sets.h"
+
+namespace dismantle::statics {
+namespace {
+
+using Group = std::vector<std::uint32_t>;
+using Stop = std::function<bool()>;
+
+constexpr int kRounds = 400;
+
+bool contains(const Group& group, std::uint32_t body) {
+  return std::find(group.begin(), group.end(), body) != group.end();
+}
+
+Pile held(Pile pile, const Group& bodies) {
+  for (const std::uint32_t i : bodies) pile.bodies[i].fixed = true;
+  return pile;
+}
+
+/// Everything outside of `group` is held, and still it does not stand.
+bool must_be_hit(const Pile& pile, const Group& group, const Stop& stop) {
+  Pile alone = pile;
+  for (std::uint32_t i = 0; i < alone.bodies.size(); ++i)
+    if (!contains(group, i)) alone.bodies[i].fixed = true;
+  return judge(alone, stop).verdict != Verdict::stands;
+}
+
+/// A group of which no part can be left out; halves are tried before single bodies.
+Group smallest(const Pile& pile, Group group, const Stop& stop) {
+  for (std::size_t size = group.size() / 2; size > 0; size /= 2)
+    for (std::size_t first = 0; first < group.size() && group.size() > 1;) {
+      Group without = group;
+      const auto begin = without.begin() + static_cast<std::ptrdiff_t>(first);
+      without.erase(begin, begin + static_cast<std::ptrdiff_t>(std::min(size, group.size() - first)));
+      if (!without.empty() && must_be_hit(pile, without, stop))
+        group = std::move(without);
+      else
+        first += size;
+    }
+  return group;
+}
+
+/// Extends `chosen` to a set of at most `most` bodies that meets all groups.
+bool extend(const std::vector<Group>& groups, std::size_t most, Group& chosen) {
+  const Group* open = nullptr;
+  for (const Group& g : groups) {
+    if (std::any_of(g.begin(), g.end(), [&](std::uint32_t i) { return contains(chosen, i); })) continue;
+    if (open == nullptr || g.size() < open->size()) open = &g;
+  }
+  if (open == nullptr) return true;
+  if (chosen.size() == most) return false;
+  for (const std::uint32_t i : *open) {
+    chosen.push_back(i);
+    if (extend(groups, most, chosen)) return true;
+    chosen.pop_back();
+  }
+  return false;
+}
+
+}  // namespace
+
+Group minimum_hitting_set(const std::vector<Group>& groups) {
+  // Groups that share no body need one each.
+  std::size_t least = 0;
+  Group seen;
+  for (const Group& g : groups)
+    if (std::none_of(g.begin(), g.end(), [&](std::uint32_t i) { return contains(seen, i); })) {
+      ++least;
+      seen.insert(seen.end(), g.begin(), g.end());
+    }
+  for (std::size_t most = least;; ++most) {
+    Group chosen;
+    if (!extend(groups, most, chosen)) continue;
+    std::sort(chosen.begin(), chosen.end());
+    return chosen;
+  }
+}
+
+std::vector<Group> moving_groups(const Pile& pile, const Motions& motion) {
+  std::vector<double> size(motion.size());
+  double most = 0;
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    size[i] = motion[i].v.norm() + motion[i].w.norm() * pile.bodies[i].radius;
+    most = std::max(most, size[i]);
+  }
+  const auto moves = [&](std::uint32_t i) { return !pile.bodies[i].fixed && size[i] > 1e-5 * most; };
+  DisjointSets sets(motion.size());
+  for (const Contact& c : pile.contacts)
+    if (moves(c.a) && moves(c.b)) sets.join(c.a, c.b);
+  std::map<std::uint32_t, Group> groups;
+  for (std::uint32_t i = 0; i < motion.size(); ++i)
+    if (moves(i)) groups[sets.root(i)].push_back(i);
+  std::vector<Group> result;
+  for (auto& [root, group] : groups) result.push_back(std::move(group));
+  return result;
+}
+
+Holds least_holds(const Pile& pile, const Stop& stop) {
+  Holds result;
+  bool exact = true;
+  for (int round = 0; round < kRounds && !(stop && stop()); ++round) {
+    result.held = minimum_hitting_set(result.groups);
+    const Judgement found = judge(held(pile, result.held), stop);
+    if (found.verdict == Verdict::stands) {
+      result.found = true;
+      result.proved = exact;
+      return result;
+    }
+    bool more = false;
+    for (Group& g : moving_groups(held(pile, result.held), found.motion))
+      if (must_be_hit(pile, g, stop)) {
+        result.groups.push_back(smallest(pile, std::move(g), stop));
+        more = true;
+      }
+    if (more) continue;
+    // No part of it is a reason by itself: everything that is free.
+    Group free;
+    for (std::uint32_t i = 0; i < pile.bodies.size(); ++i)
+      if (!pile.bodies[i].fixed && !contains(result.held, i)) free.push_back(i);
+    if (free.empty()) return result;
+    result.groups.push_back(smallest(pile, std::move(free), stop));
+    exact = exact && found.verdict != Verdict::uncertain;
+  }
+  return result;
+}
+
+}  // namespace dismantle::statics

@@ -1,0 +1,155 @@
+#include "dismantle/statics/stability.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dismantle/geometry/length_unit.h"
+#include "dismantle/statics/balance.h"
+
+namespace dismantle::statics {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+using Stop = std::function<bool()>;
+
+constexpr double kFrictions[] = {0.2, 0.3, 0.4, 0.5, 0.6};
+constexpr std::size_t kMostPushed = 60;  // parts: sixteen directions for each of them
+
+/// The pair holds together without gravity: pressed, clipped, screwed. `gap`: an overlap of that depth is still
+/// touching.
+bool bonded(const Assembly& assembly, PartId a, PartId b, double gap) {
+  if (const InitialOverlap* o = assembly.overlap_of(a, b); o != nullptr && o->place) {
+    const ContactClass contact = o->place->contact;
+    if (contact == ContactClass::uniform_interference && o->place->axis) return true;  // around an axis
+    if (o->depth > gap && contact != ContactClass::clearance && contact != ContactClass::kissing) return true;
+  }
+  const auto fastens = [](const Part& p) { return p.kind && (p.kind->kind == "screw" || p.kind->kind == "nut"); };
+  return fastens(assembly.parts[a]) || fastens(assembly.parts[b]);
+}
+
+/// Contacts of all pairs whose boxes are near, in the input's units.
+void add_contacts(const Assembly& assembly, const std::vector<Shape>& shapes, const StabilityOptions& options,
+                  double touching, Pile& pile) {
+  std::vector<Aabb> boxes;
+  for (const Shape& s : shapes) {
+    boxes.push_back(s.mesh().box());
+    boxes.back().inflate(touching * s.radius());
+  }
+  for (std::uint32_t a = 0; a < shapes.size(); ++a)
+    for (std::uint32_t b = a + 1; b < shapes.size(); ++b) {
+      if (!boxes[a].overlaps(boxes[b])) continue;
+      const bool bond = bonded(assembly, a, b, touching * std::min(shapes[a].radius(), shapes[b].radius()));
+      for (Contact& c : contacts_between({&shapes[a], {}}, {&shapes[b], {}}, touching)) {
+        c.a = a;
+        c.b = b;
+        c.friction = options.friction;
+        c.bonded = bond;
+        for (Vec3& p : c.points) p = assembly.normalization.to_input(p);
+        pile.contacts.push_back(std::move(c));
+      }
+    }
+}
+
+std::vector<PartMove> moves_of(const Pile& pile, const Motions& motion, std::size_t parts) {
+  std::vector<PartMove> moves;
+  double most = 0;
+  for (std::size_t i = 0; i < parts; ++i)
+    most = std::max(most, motion[i].v.norm() + motion[i].w.norm() * pile.bodies[i].radius);
+  for (std::size_t i = 0; i < parts; ++i) {
+    const Motion& m = motion[i];
+    if (!(m.v.norm() + m.w.norm() * pile.bodies[i].radius > 1e-3 * most)) continue;
+    // A part that turns about its centre: the way of its upper end.
+    const Vec3 way = m.v.norm() > 1e-3 * m.w.norm() * pile.bodies[i].radius ? m.v : Vec3(m.w.cross(-pile.down));
+    if (way.norm() > 0) moves.push_back({static_cast<PartId>(i), way.normalized()});
+  }
+  return moves;
+}
+
+}  // namespace
+
+AssemblyPile::AssemblyPile(const Assembly& assembly, StabilityOptions options)
+    : assembly_(assembly), options_(std::move(options)) {
+  options_.fixed.resize(assembly.parts.size(), false);
+  options_.mass.resize(assembly.parts.size());
+  if (options_.density.empty())
+    for (const Part& p : assembly.parts) options_.density.push_back(p.density.value_or(1));
+  for (const Part& p : assembly.parts) shapes_.emplace_back(*p.mesh);
+}
+
+bool AssemblyPile::unit_known() const { return !assembly_.unit.empty(); }
+
+Pile AssemblyPile::pile(double factor) const {
+  const double touching = factor * options_.touching, scale = assembly_.normalization.scale;
+  const double metre = metres_in(unit_known() ? assembly_.unit : "mm");
+  Pile pile;
+  for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    const Shape& s = shapes_[i];
+    const double volume = s.volume() > 0 ? s.volume() : assembly_.parts[i].volume;
+    double kg = options_.density[i] * 1000 * volume * std::pow(metre / scale, 3);
+    if (options_.mass[i]) kg = *options_.mass[i];
+    if (!(kg > 0)) kg = 1e-6;  // an open surface: it weighs next to nothing
+    pile.bodies.push_back({kg * kGravity, assembly_.normalization.to_input(s.center()), s.radius() / scale,
+                           static_cast<bool>(options_.fixed[i])});
+  }
+  add_contacts(assembly_, shapes_, options_, touching, pile);
+  pile.down = -options_.up;
+  if (options_.table) {
+    const std::uint32_t table = static_cast<std::uint32_t>(pile.bodies.size());
+    pile.bodies.push_back({0, Vec3::Zero(), 1, true});
+    double height = std::numeric_limits<double>::infinity();
+    for (const Shape& s : shapes_) height = std::min(height, lowest({&s, {}}, options_.up));
+    for (std::uint32_t i = 0; i < table; ++i) {
+      Contact c = contact_with_table({&shapes_[i], {}}, options_.up, height, touching);
+      if (c.points.empty()) continue;
+      c.a = i;
+      c.b = table;
+      c.friction = options_.friction;
+      for (Vec3& p : c.points) p = assembly_.normalization.to_input(p);
+      pile.contacts.push_back(std::move(c));
+    }
+  }
+  for (const auto& [axis, angle] : options_.tilts) pile = tilted(std::move(pile), axis, angle);
+  return pile;
+}
+
+StabilityReport judge_assembly(const AssemblyPile& assembly, const Stop& stop) {
+  StabilityReport report;
+  report.pile = assembly.pile();
+  Pile& pile = report.pile;
+  report.judgement = judge(pile, stop);
+  const Verdict verdict = report.judgement.verdict;
+  report.at_tolerances = {judge(assembly.pile(0.5), stop).verdict, verdict, judge(assembly.pile(2), stop).verdict};
+  for (const double friction : kFrictions) {
+    Pile other = pile;
+    for (Contact& c : other.contacts) c.friction = friction;
+    report.by_friction.emplace_back(friction, judge(other, stop).verdict);
+  }
+  if (verdict == Verdict::stands) {
+    report.holds.found = report.holds.proved = true;
+    report.tilt_x = critical_tilt(pile, Vec3::UnitX(), stop);
+    report.tilt_y = critical_tilt(pile, Vec3::UnitY(), stop);
+    report.tilt_back_x = critical_tilt(pile, -Vec3::UnitX(), stop);
+    report.tilt_back_y = critical_tilt(pile, -Vec3::UnitY(), stop);
+    std::size_t loose = 0;
+    for (const Body& b : pile.bodies) loose += !b.fixed;
+    report.pushes_left_out = loose > kMostPushed;
+    for (std::uint32_t i = 0; i < pile.bodies.size() && !report.pushes_left_out; ++i)
+      if (!pile.bodies[i].fixed)
+        if (auto push = least_push(pile, i, stop)) report.pushes.push_back(std::move(*push));
+    std::stable_sort(report.pushes.begin(), report.pushes.end(),
+                     [](const LeastPush& a, const LeastPush& b) { return a.force < b.force; });
+  } else {
+    report.tilt_x = report.tilt_y = report.tilt_back_x = report.tilt_back_y = 0;
+    report.holds = least_holds(pile, stop);
+    const Balance sliding = balance(pile, FrictionLaw::coulomb, stop);  // friction as it is, for people
+    const Motions& motion = sliding.falling.empty() ? report.judgement.motion : sliding.falling;
+    if (!motion.empty()) report.moves = moves_of(pile, motion, assembly.options().fixed.size());
+  }
+  if (std::any_of(report.at_tolerances.begin(), report.at_tolerances.end(), [&](Verdict v) { return v != verdict; }))
+    report.judgement.verdict = Verdict::uncertain;
+  return report;
+}
+
+}  // namespace dismantle::statics

@@ -1,0 +1,67 @@
+#include "dismantle/statics/limits.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "dismantle/statics/holds.h"
+#include "piles.h"
+
+namespace dismantle::statics {
+namespace {
+
+using namespace testing;
+using Vec3 = Eigen::Vector3d;
+
+constexpr double kDegrees = M_PI / 180;
+
+TEST(CriticalTilt, IsTheAngleOfFrictionOrOfToppling) {
+  const Mesh ground = box({-5, -5, -1}, {5, 5, 0});
+  const Pile pile = pile_of({ground, box({-0.25, -1, 0}, {0.25, 1, 1})}, 1, 0.7);
+  EXPECT_NEAR(*critical_tilt(pile, Vec3::UnitY()) / kDegrees, 26.565, 0.05);  // topples
+  EXPECT_NEAR(*critical_tilt(pile, -Vec3::UnitY()) / kDegrees, 26.565, 0.05);
+  EXPECT_NEAR(*critical_tilt(pile, Vec3::UnitX()) / kDegrees, std::atan(0.7) / kDegrees, 0.05);  // slides
+}
+
+TEST(LeastPush, OfASlabOnTwoLegs) {
+  const Mesh ground = box({-5, -5, -1}, {5, 5, 0});
+  Pile pile = pile_of({ground, box({-2, -1, 0}, {-1, 1, 1}), box({1, -1, 0}, {2, 1, 1}), box({-2, -1, 1}, {2, 1, 1.2})},
+                      1, 0.5);
+  pile.bodies[1].weight = pile.bodies[2].weight = 9.81;
+  pile.bodies[3].weight = 3 * 9.81;
+  const auto push = least_push(pile, 3);
+  ASSERT_TRUE(push);
+  EXPECT_NEAR(push->force, 14.7, 0.1);
+}
+
+TEST(LeastHolds, AgreeWithBruteForce) {
+  std::mt19937 random(3);
+  int some = 0;
+  for (int trial = 0; trial < 25; ++trial) {
+    const int n = 3 + static_cast<int>(random() % 4);
+    std::vector<Mesh> meshes = {box({-5, -5, -1}, {5, 5, 0})};
+    for (int k = 0; k < n; ++k) {
+      const double x = 0.5 * static_cast<double>(random() % 12) - 3, z = 0.5 * (k / 2);
+      meshes.push_back(box({x, 0, z}, {x + 1.5, 1, z + 0.5}));
+    }
+    // Blocks of one layer may overlap; their contact is then a wall, which is as good as any.
+    const Pile pile = pile_of(meshes, 1, 0.4);
+    const Holds holds = least_holds(pile);
+    ASSERT_TRUE(holds.found);
+    std::size_t least = static_cast<std::size_t>(n);
+    for (unsigned set = 0; set < (1u << n); ++set) {
+      Pile held = pile;
+      for (int i = 0; i < n; ++i)
+        if (set & (1u << i)) held.bodies[static_cast<std::size_t>(i) + 1].fixed = true;
+      if (judge(held).verdict == Verdict::stands)
+        least = std::min(least, static_cast<std::size_t>(__builtin_popcount(set)));
+    }
+    EXPECT_EQ(holds.held.size(), least) << trial;
+    some += least > 0;
+  }
+  EXPECT_GT(some, 5);
+}
+
+}  // namespace
+}  // namespace dismantle::statics
