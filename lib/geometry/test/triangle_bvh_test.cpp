@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "dismantle/testing/shapes.h"
@@ -137,6 +139,45 @@ TEST(TriangleBvh, ManyEqualCentresDoNotMakeADeepTree) {
   const TriangleBvh bvh(stack);
   EXPECT_EQ(bvh.winding_number(Vec3::Zero()), 3000);
   EXPECT_NEAR(bvh.closest(Vec3::Zero()).distance, 1, 1e-15);
+}
+
+TEST(TriangleBvh, InsideOfAnOpenBoxEndsWhereTheOpeningFillsHalfTheView) {
+  // A cube without its top: of a point at height h on its axis, the opening takes the share that the square has.
+  Mesh cup = shapes::refine(shapes::box({-1, -1, -2}, {1, 1, 0}), 3);
+  std::erase_if(cup.triangles, [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](auto v) { return cup.vertices[v].z() > -1e-9; });
+  });
+  const TriangleBvh bvh(cup, {}, Surface::open);
+  for (const double h : {-1.9, -1.5, -1.0, -0.5, -0.1, -0.01}) {
+    const double opening = std::asin(1 / (1 + h * h)) / std::numbers::pi;  // a square of half edge 1 at distance h
+    EXPECT_NEAR(bvh.generalised_winding_number({0, 0, h}), 1 - opening, 0.01) << h;
+    EXPECT_EQ(bvh.inside({0, 0, h}), opening < 0.5) << h;
+  }
+  EXPECT_FALSE(bvh.inside({0, 0, 0.01}));
+  EXPECT_FALSE(bvh.inside({0, 0, -2.01}));
+  EXPECT_FALSE(bvh.inside({9, 0, -1}));
+}
+
+TEST(TriangleBvh, GeneralisedWindingNumberEqualsTheSumOfSolidAngles) {
+  Rng rng(77);
+  Mesh soup;
+  for (int t = 0; t < 400; ++t) {
+    const Vec3 at = random_vector(rng, -2, 2);
+    const auto n = static_cast<std::uint32_t>(soup.vertices.size());
+    for (int k = 0; k < 3; ++k) soup.vertices.push_back(at + random_vector(rng, -0.3, 0.3));
+    soup.triangles.push_back({n, n + 1, n + 2});
+  }
+  const TriangleBvh bvh(soup, {}, Surface::open);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 p = random_vector(rng, -3, 3);
+    double sum = 0;
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+      const Vec3 a = (soup.vertex(t, 0) - p).normalized(), b = (soup.vertex(t, 1) - p).normalized(),
+                 c = (soup.vertex(t, 2) - p).normalized();
+      sum += 2 * std::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
+    }
+    EXPECT_NEAR(bvh.generalised_winding_number(p), sum / (4 * std::numbers::pi), 0.01);
+  }
 }
 
 }  // namespace

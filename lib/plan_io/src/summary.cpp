@@ -12,6 +12,18 @@
 namespace dismantle {
 namespace {
 
+/// "open: a, b and 3 more parts: their surfaces are not closed, and are walls".
+std::string open_text(const std::vector<PlanPart>& parts) {
+  std::string names;
+  std::size_t count = 0;
+  for (const PlanPart& part : parts)
+    if (part.open && ++count <= 5) names += fmt::format("{}{}", names.empty() ? "" : ", ", part.name);
+  if (count == 0) return {};
+  if (count > 5) names += fmt::format(" and {} more", count - 5);
+  return fmt::format("open: {}: {} not closed, and {}\n", names, count == 1 ? "its surface is" : "their surfaces are",
+                     count == 1 ? "is a wall" : "are walls");
+}
+
 std::string excluded_text(const std::vector<PlanExcluded>& excluded) {
   std::string out;
   for (const PlanExcluded& e : excluded) out += fmt::format("left out: {}: {}\n", e.name, e.reason);
@@ -95,6 +107,7 @@ std::string summary_text(const Plan& plan) {
     out += fmt::format("assembly: partial: {}\n", plan.assembly_message);
   if (!plan.remaining.empty()) out += fmt::format("stays: {}\n", text::joined(plan.remaining));
   out += excluded_text(a.excluded);
+  out += open_text(a.parts);
   for (const auto& u : plan.unsolved) {
     out += fmt::format("unsolved: {}: {}", u.part, to_string(u.outcome));
     if (!u.blocked_by.empty()) out += fmt::format(", blocked by {}", text::joined(u.blocked_by));

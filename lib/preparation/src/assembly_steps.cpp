@@ -74,7 +74,7 @@ Dropped find_overlapping(const std::vector<Candidate>& candidates, double max_sh
   const auto name = [&](std::size_t i) { return candidates[i].name; };
   parallel_phase(
       candidates.size(), context, "overlap shares",
-      [&](std::size_t i) { bvhs[i] = std::make_unique<TriangleBvh>(candidates[i].mesh); }, name);
+      [&](std::size_t i) { bvhs[i] = candidates[i].bvh(); }, name);
   std::vector<Coverage> coverage(candidates.size());
   parallel_phase(
       candidates.size(), context, "overlap shares",

@@ -23,9 +23,14 @@ struct Candidate {
   Mesh mesh;
   Aabb box;
   double volume = 0;
+  bool open = false;  ///< its surface is a wall
   std::optional<Rgba> colour;
   std::vector<std::string> parents;
   std::string unit;
+
+  std::unique_ptr<TriangleBvh> bvh() const {
+    return std::make_unique<TriangleBvh>(mesh, geometry::Poll{}, open ? Surface::open : Surface::closed);
+  }
 };
 
 /// Candidates to remove from the assembly, with the reasons.

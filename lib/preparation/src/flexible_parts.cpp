@@ -41,6 +41,10 @@ double flexible_depth(const Part& part) {
   return area > 0 ? 4 * part.volume / area : 0;
 }
 
+static TriangleBvh bvh_of(const Part& part) {
+  return TriangleBvh(*part.mesh, geometry::Poll{}, part.open ? Surface::open : Surface::closed);
+}
+
 std::optional<Flexible> flexible_shape(const Mesh& mesh) {
   const auto strand = geometry::follow_strand(mesh);
   return strand ? fasteners::strand_kind(*strand) : std::nullopt;
@@ -56,7 +60,7 @@ std::vector<FlexiblePart> recognise_flexible(Assembly& assembly, const RunContex
     }
   std::vector<PartId> asked;
   for (const Part& part : assembly.parts)
-    if (!pairs[part.id].empty() && (only == nullptr || std::find(only->begin(), only->end(), part.name) != only->end()))
+    if (!part.open && !pairs[part.id].empty() && (only == nullptr || std::find(only->begin(), only->end(), part.name) != only->end()))
       asked.push_back(part.id);
   const auto other_of = [&](PartId part, std::size_t pair) {
     return assembly.overlaps[pair].a == part ? assembly.overlaps[pair].b : assembly.overlaps[pair].a;
@@ -70,7 +74,7 @@ std::vector<FlexiblePart> recognise_flexible(Assembly& assembly, const RunContex
         kinds[i] = strand ? fasteners::strand_kind(*strand) : std::nullopt;
         if (kinds[i] == Flexible::loop)  // a part in less than a quarter of its turns is another link of a chain
           std::erase_if(pairs[part], [&](std::size_t pair) {
-            return clasped(*strand, TriangleBvh(*assembly.parts[other_of(part, pair)].mesh)) < 0.25;
+            return clasped(*strand, bvh_of(assembly.parts[other_of(part, pair)])) < 0.25;
           });
       },
       [&](std::size_t i) { return assembly.parts[asked[i]].name; });

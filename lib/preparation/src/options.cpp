@@ -11,13 +11,18 @@ void PrepareOptions::describe(Schema<PrepareOptions>& s) {
                 "positions always are. Closed surfaces are never changed. (Appendix B.1, step 2.)"});
   s.add("repair", &PrepareOptions::repair,
         {.unit = "1",
-         .doc = "Close T-junctions and small flat holes and drop inner walls of parts that are not watertight, before "
-                "excluding them. The paper drops them without a repair (step 2)."});
+         .doc = "Close T-junctions and small flat holes and drop inner walls of parts that are not watertight. What is "
+                "left open then is a case for `open`. The paper does not repair (step 2)."});
   s.add("max_hole", &PrepareOptions::max_hole,
         {.unit = "1",
          .min = 0.0,
          .max = 1.0,
          .doc = "Largest hole that repair closes, as a share of the part's surface area."});
+  s.add_choice<OpenSurfaces>(
+      "open", &PrepareOptions::open,
+      {{"wall", OpenSurfaces::wall, "they are planned: their surface is a wall that no part may pass through"},
+       {"exclude", OpenSurfaces::exclude, "they are left out (the paper, step 2)"}},
+      "What becomes of parts whose surface is not closed after repair.");
   s.add("drop_duplicates", &PrepareOptions::drop_duplicates,
         {.unit = "1", .doc = "Drop a part that has the geometry and the place of an earlier one (step 3)."});
   s.add("max_overlap", &PrepareOptions::max_overlap,

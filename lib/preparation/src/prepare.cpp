@@ -110,6 +110,9 @@ class Preparation {
       c.unit = raw[i].unit;
       c.box = c.mesh.box();
       c.volume = report.volume;
+      c.open = !report.open.empty();
+      if (c.open)
+        context_.log(LogLevel::info, fmt::format("'{}' is {}: its surface is a wall", report.name, report.open));
       warn_precision(c);
       parts_.push_back(std::move(c));
     }
@@ -215,7 +218,8 @@ class Preparation {
       part.id = static_cast<PartId>(i);
       part.name = parts_[i].name;
       part.file = parts_[i].file;
-      part.volume = signed_volume(mesh);
+      part.open = parts_[i].open;
+      part.volume = part.open ? std::max(0.0, signed_volume(mesh)) : signed_volume(mesh);
       part.colour = parts_[i].colour;
       part.parents = parts_[i].parents;
       if (mesh.box().size().maxCoeff() < 0.002 * options_.size && count++ < 5)

@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/mesh_repair.h"
@@ -46,7 +48,10 @@ class PartRepair {
     go_on();
     drop_flat_shells();
     go_on();
-    if (mesh_.empty() || coplanar()) {
+    const bool flat = mesh_.empty() || coplanar();
+    if ((flat || !use.closed()) && before_closing_ && options_.open == OpenSurfaces::wall) {
+      make_walls();
+    } else if (flat) {
       reject("no volume: its triangles lie flat on each other or have no area");
     } else if (!use.closed()) {
       reject(open_text(use));
@@ -149,6 +154,7 @@ class PartRepair {
         use = edge_use(mesh_);
       }
     }
+    if (use.open) before_closing_ = Before{mesh_, report_.actions.size(), report_.summary.size()};
     if (use.inconsistent) {
       orient();
       use = edge_use(mesh_);
@@ -225,6 +231,29 @@ class PartRepair {
     did("dropped {} without volume", counted(dropped, "shell"));
   }
 
+  /// Undoes the attempts to close the surface: walls are what the file has, no more and no less.
+  void make_walls() {
+    mesh_ = std::move(before_closing_->mesh);
+    report_.actions.resize(before_closing_->actions);
+    report_.summary.resize(before_closing_->summary);
+    EdgeUse use = edge_use(mesh_);
+    if (surface_area(mesh_) <= 1e-12 * diagonal_ * diagonal_) return reject("its triangles have no area");
+    if (use.inconsistent) {
+      Mesh oriented = mesh_;
+      const OrientResult o = orient_outward(oriented);
+      if (o.membranes == 0 && o.flipped > 0) {
+        mesh_ = std::move(oriented);
+        did("turned {} that faced the wrong way", counted(o.flipped, "triangle"));
+        use = edge_use(mesh_);
+      }
+    }
+    if (signed_volume(mesh_) < 0) {
+      for (Triangle& t : mesh_.triangles) std::swap(t[1], t[2]);
+      did("turned the whole surface: it faced inward");
+    }
+    report_.open = open_text(use);
+  }
+
   void turn_shells(bool trusted) {
     const ShellResult s = orient_shells(mesh_, trusted);
     if (s.turned) did("turned {} of {} inside out", counted(s.turned, "shell"), s.shells);
@@ -255,6 +284,7 @@ class PartRepair {
     shells_of(mesh_, report_.shells);
     report_.volume = signed_volume(mesh_);
     report_.watertight = edge_use(mesh_).closed();
+    if (!report_.open.empty()) report_.volume = std::max(0.0, report_.volume);
   }
 
   Mesh& mesh_;
@@ -263,6 +293,11 @@ class PartRepair {
   PartReport& report_;
   const RunContext& context_;
   double diagonal_ = 0;
+  struct Before {
+    Mesh mesh;
+    std::size_t actions = 0, summary = 0;
+  };
+  std::optional<Before> before_closing_;  // of a mesh that was open then
 };
 
 }  // namespace

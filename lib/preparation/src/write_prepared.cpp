@@ -92,6 +92,7 @@ std::vector<fs::path> write_prepared(const Assembly& assembly, const PrepareRepo
     p["triangles"] = part.triangles;
     p["shells"] = part.shells;
     p["watertight"] = part.watertight;
+    if (!part.open.empty()) p["open"] = part.open;
     p["volume"] = part.volume;
     p["actions"] = part.actions;
     json["parts"].push_back(std::move(p));

@@ -80,12 +80,21 @@ TEST(CheckAssembly, DuplicatesAndOpenMeshesAreNamed) {
   const AssemblyCheck check = checked({raw_box("a", {0, 0, 0}, {10, 10, 10}), raw_box("b", {10, 0, 0}, {20, 10, 10}),
                                        raw_box("copy of b", {10, 0, 0}, {20, 10, 10}), open},
                                       options);
-  const auto duplicates = of_kind(check, FindingKind::duplicate), unusable = of_kind(check, FindingKind::unusable);
+  const auto open_ones = of_kind(check, FindingKind::open);
+  ASSERT_EQ(open_ones.size(), 1u);
+  EXPECT_EQ(open_ones[0].parts.front(), "open");
+  EXPECT_EQ(open_ones[0].severity, Severity::note);
+  EXPECT_NE(open_ones[0].message.find("open edges"), std::string::npos);
+  options.open = OpenSurfaces::exclude;
+  const AssemblyCheck without = checked({raw_box("a", {0, 0, 0}, {10, 10, 10}), raw_box("b", {10, 0, 0}, {20, 10, 10}),
+                                         raw_box("copy of b", {10, 0, 0}, {20, 10, 10}), open},
+                                        options);
+  const auto duplicates = of_kind(without, FindingKind::duplicate), unusable = of_kind(without, FindingKind::unusable);
   ASSERT_EQ(duplicates.size(), 1u);
   EXPECT_EQ(duplicates[0].parts.front(), "copy of b");
   ASSERT_EQ(unusable.size(), 1u);
   EXPECT_EQ(unusable[0].parts.front(), "open");
-  EXPECT_EQ(check.findings.front().severity, Severity::error);
+  EXPECT_EQ(without.findings.front().severity, Severity::error);
 }
 
 TEST(CheckAssembly, PartAwayFromTheOthersIsIsolatedAndOthersAreNot) {

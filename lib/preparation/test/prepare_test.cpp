@@ -36,7 +36,7 @@ Mesh box_at(double x, double y = 0, double z = 0) { return moved(kUnit, shift({x
 TEST(Prepare, SchemaIsSound) {
   const Schema<PrepareOptions> schema;
   EXPECT_TRUE(problems_of_schema(schema.specs()).empty()) << problems_of_schema(schema.specs()).front();
-  EXPECT_EQ(schema.specs().size(), 12u);
+  EXPECT_EQ(schema.specs().size(), 13u);
 }
 
 TEST(Prepare, ScalesTheBoxOfAllPartsToTen) {
@@ -88,8 +88,11 @@ TEST(Prepare, PartsThatCannotBeUsedAreNamedWithTheReason) {
   nan.vertices[3].y() = std::numeric_limits<double>::quiet_NaN();
   Mesh astray = kUnit;
   astray.triangles[0][1] = 99;
+  PrepareOptions options;
+  options.open = OpenSurfaces::exclude;
   const auto [a, report] = prepare({raw("a", box_at(0)), raw("open", open), raw("flat", flat), raw("nan", nan),
-                                    raw("astray", astray), raw("empty", {}), raw("b", box_at(2))});
+                                    raw("astray", astray), raw("empty", {}), raw("b", box_at(2))},
+                                   options);
   ASSERT_EQ(a.parts.size(), 2u);
   EXPECT_EQ(a.parts[1].name, "b");
   EXPECT_EQ(a.parts[1].id, 1u);
@@ -118,9 +121,11 @@ TEST(Prepare, DoubleSidedPartsAreUsed) {
 TEST(Prepare, FewerThanTwoPartsIsAnErrorThatListsThem) {
   Mesh open = kUnit;
   open.triangles.resize(10);
+  PrepareOptions options;
+  options.open = OpenSurfaces::exclude;
   EXPECT_NE(error_of({raw("one", kUnit)}).find("1 of 1 part can be used; an assembly needs at least two"),
             std::string::npos);
-  const auto text = error_of({raw("one", kUnit), raw("lid", open)});
+  const auto text = error_of({raw("one", kUnit), raw("lid", open)}, options);
   EXPECT_NE(text.find("1 of 2 parts can be used"), std::string::npos);
   EXPECT_NE(text.find("\n  lid: not watertight"), std::string::npos);
   EXPECT_NE(error_of({}).find("there are no parts"), std::string::npos);
@@ -130,6 +135,7 @@ TEST(Prepare, RepairCanBeSwitchedOff) {
   Mesh holed = sphere(Vec3::Zero(), 1, 3);
   holed.triangles.pop_back();
   PrepareOptions options;
+  options.open = OpenSurfaces::exclude;
   const auto [with, report] = prepare({raw("a", holed), raw("b", box_at(3)), raw("c", box_at(5))}, options);
   EXPECT_EQ(with.parts.size(), 3u);
   EXPECT_TRUE(any_contains(report.parts[0].actions, "closed a hole of 3 edges near"));
@@ -301,7 +307,10 @@ TEST(WritePrepared, WritesPartsAndReport) {
   const TempFolder folder;
   Mesh open = kUnit;
   open.triangles.resize(10);
-  const auto [a, report] = prepare({raw("plate / left", box_at(0.1)), raw("Größe", box_at(1.05)), raw("open", open)});
+  PrepareOptions options;
+  options.open = OpenSurfaces::exclude;
+  const auto [a, report] =
+      prepare({raw("plate / left", box_at(0.1)), raw("Größe", box_at(1.05)), raw("open", open)}, options);
   const auto files = write_prepared(a, report, folder / "out");
   ASSERT_EQ(files.size(), 3u);
   EXPECT_EQ(files[0].filename(), "plate _ left.obj");

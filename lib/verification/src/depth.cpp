@@ -12,6 +12,7 @@
 #include "dismantle/geometry/patch.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/geometry/starts_off.h"
+#include "dismantle/geometry/walls.h"
 #include "dismantle/verification/interruptible_depth.h"
 #include "dismantle/verification/verifier.h"
 #include "geometry_names.h"
@@ -163,6 +164,27 @@ class Descent {
   std::deque<Patch> open_;
 };
 
+/// The smallest displacement of one of two parts, one of which is open, that takes it off the other, exact to
+/// `tolerance` from above; 0 up to `tolerance`. nullopt: none does.
+std::optional<Penetration> wall_depth(const Solid& a, const Pose& place_a, const Solid& b, const Pose& place_b,
+                                      double tolerance, const RunContext& context) {
+  const Pose a_in_b = place_b.inverse() * place_a;
+  Vec3 meets = Vec3::Zero();
+  const auto apart = [&](double depth) { return geometry::apart_by(a, b, a_in_b, depth, meets); };
+  if (apart(tolerance)) return Penetration{};
+  const double most = std::min(a.box.size().norm(), b.box.size().norm());
+  double low = tolerance, high = 2 * tolerance;
+  for (; !apart(high); high *= 2) {
+    if (high > most || context.should_stop()) return std::nullopt;
+    low = high;
+  }
+  while (high - low > tolerance && !context.should_stop()) {
+    const double middle = 0.5 * (low + high);
+    (apart(middle) ? high : low) = middle;
+  }
+  return Penetration{high, place_b * meets};
+}
+
 }  // namespace
 }  // namespace verify
 
@@ -182,6 +204,11 @@ Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const De
       const Placement a_in_b(place_y.inverse() * place_x), b_in_a(place_x.inverse() * place_y);
       const Eigen::Vector3d c = a_in_b * x.box.center(), h = a_in_b.r.cwiseAbs() * (0.5 * x.box.size());
       if (!Aabb{c - h, c + h}.overlaps(y.box)) continue;
+      if (x.open || y.open)
+        if (const auto walls = verify::wall_depth(x, place_x, y, place_y, tolerance, context)) {
+          if (walls->depth > deepest.depth) deepest = *walls;
+          continue;
+        }
       const bool swap = y.mesh.triangles.size() < x.mesh.triangles.size();
       const verify::Solid &first = swap ? y : x, &second = swap ? x : y;
       const Placement &there = swap ? b_in_a : a_in_b, &back = swap ? a_in_b : b_in_a;

@@ -83,6 +83,7 @@ Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, const RunContext& conte
   for (const InitialOverlap& overlap : assembly_overlaps) {
     const double depth = overlap.allowed();
     if (overlap.declared || !overlap.place || !(depth > 10 * options.max_penetration)) continue;  // law 3
+    if (a.parts[overlap.a].open || a.parts[overlap.b].open) continue;
     Aabb box = overlap.place->region;
     box.inflate(depth + options.max_penetration);
     regions.push_back({overlap.a, overlap.b, box});
@@ -212,6 +213,22 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
   const verify::RelativeMotion backward = motion.backward();
 
   const std::size_t last = rungs.size() - 1;
+  if (x.open || y.open) {  // no measured depth tells which rung may do
+    Finding f;
+    for (const std::size_t r : {std::size_t{0}, last}) {
+      verify::Budget budget = budget_for(forward.segments(), true, allowed > options.max_penetration, &context);
+      f = verify::check_pair(x, y, forward, backward, {allowed, rungs[r], nullptr, options.max_penetration}, budget);
+      result.tests += budget.tests_done;
+      if (f.answer == Answer::certified) {
+        rung = std::max(rung, r);
+        return true;
+      }
+      result.interrupted = f.answer == Answer::exhausted && context.should_stop();
+      if (result.interrupted) return false;
+    }
+    result.violation = violation(a, b, x, y, f, allowed, forward.segments());
+    return false;
+  }
   // Paths of many segments are close fits, on which low rungs fail, so they are sampled first.
   bool sampled = forward.segments() >= 16 && geometry::box_under(x.box, forward.at(0)).overlaps(y.box);
   bool sample_tells = false;

@@ -17,6 +17,7 @@ namespace {
 Ball ball_of(const SeparationQuery& query, PartId part, std::uint64_t most_cubes) {
   return *query.memo.get<Ball>("large ball, " + std::to_string(most_cubes), part, RunContext{}, [&] {
     std::optional<Ball> largest{Ball{}};
+    if (is_open(query, part)) return largest;  // no inside
     for (const Solid& solid : solids_of(query, part))
       if (const Ball b = inscribed_ball(solid, most_cubes); b.radius > largest->radius)
         largest = Ball{solid.frame * b.center, b.radius};
@@ -33,6 +34,7 @@ struct Walls {
 Walls walls_of(const SeparationQuery& query, PartId part, double radius, const std::vector<PlacedPart>& outer) {
   Walls walls;
   for (const auto& p : outer) {
+    if (is_open(query, p.part)) continue;  // fewer walls prove less, but nothing false
     const double distance = radius - query.assembly.initial_overlap(part, p.part) - query.margin();
     if (!(distance > 0)) continue;
     for (const Solid& solid : solids_of(query, p.part)) {
@@ -85,6 +87,7 @@ std::optional<Certificate> EnclosedBall::prove(const SeparationQuery& query, con
       ball = b;
       holder = p;
     }
+  if (!(ball.radius > 0)) return std::nullopt;
   const auto most_cells = static_cast<std::size_t>(params_.max_cells);
   const Eigen::Vector3d center = holder.pose * ball.center;
   const Walls walls = walls_of(query, holder.part, ball.radius, outer);

@@ -20,6 +20,7 @@ void InterlockLpParams::describe(Schema<InterlockLpParams>& s) {
 }
 
 std::optional<Certificate> InterlockLp::prove(const SeparationQuery& query, const RunContext& context) const {
+  if (any_open(query)) return std::nullopt;
   std::vector<PartId> parts;
   for (const auto* list : {&query.moving, &query.fixed})
     for (const PlacedPart& p : *list) parts.push_back(p.part);

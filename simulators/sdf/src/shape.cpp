@@ -66,13 +66,20 @@ std::shared_ptr<const Shape> make_shape(const Part& part, const Pose& to_shape, 
   auto shape = std::make_shared<Shape>();
   const Mesh mesh = moved(*part.mesh, to_shape);
   shape->box = mesh.box();
-  for (const Solid& solid : split_solids(mesh, poll)) {
+  std::vector<Solid> solids;
+  if (part.open)
+    solids.push_back(walls(mesh, poll));
+  else
+    solids = split_solids(mesh, poll);
+  for (const Solid& solid : solids) {
     poll();
     SolidField field;
     field.box = solid.mesh.box();
     field.surface = std::make_unique<SurfaceQuery>(solid, options.points.spacing, poll);
     poll();
-    field.grid = std::make_unique<DistanceGrid>(solid, *field.surface, options.grid);
+    // The sign of an open surface does not follow from that of neighbours: all nodes are queried.
+    const GridOptions& grid = solid.open ? bounding_grid() : options.grid;
+    field.grid = std::make_unique<DistanceGrid>(solid, *field.surface, grid);
     shape->solids.push_back(std::move(field));
   }
   poll();

@@ -106,6 +106,12 @@ MassProperties mass_properties(const Mesh& mesh) {
   return m;
 }
 
+Solid walls(const Mesh& mesh, const geometry::Poll& poll) {
+  Solid solid = with_normals(mesh, poll);
+  solid.open = true;
+  return solid;
+}
+
 std::vector<Solid> split_solids(const Mesh& mesh, const geometry::Poll& poll) {
   std::vector<Mesh> shells = shells_of(mesh);
   if (shells.size() == 1) {

@@ -41,6 +41,7 @@ SurfaceQuery::SurfaceQuery(const Solid& solid, double near, const geometry::Poll
     corners_[s] = {a, b - a, c - a};
     slabs_.emplace_back(a, b - a, c - a, bounded_within_);
   }
+  if (solid.open) walls_ = std::make_unique<TriangleBvh>(solid.mesh, poll, Surface::open);
   find_faces(solid);
   poll.before(n);
   find_convex_features(solid);
@@ -151,6 +152,7 @@ Sample SurfaceQuery::signed_sample(const Eigen::Vector3d& p, const Nearest& near
   s.triangle = t;
   s.offset = c.offset;
   s.feature = c.feature;
+  if (walls_) return wall_sample(p, s, std::sqrt(c.squared));
   // On a face the plane normal is more accurate than p - q, which is undefined on the surface itself.
   if (c.feature == Feature::face) {
     const Plane& plane = planes_[face_of_[t]];
@@ -170,11 +172,19 @@ Sample SurfaceQuery::signed_sample(const Eigen::Vector3d& p, const Nearest& near
   return s;
 }
 
+/// `s` has the closest point.
+Sample SurfaceQuery::wall_sample(const Eigen::Vector3d& p, Sample s, double distance) const {
+  const double side = walls_->inside(p) ? -1 : 1;
+  s.value = side * distance;
+  s.normal = distance > geometry::kRounding ? Eigen::Vector3d(side / distance * s.offset) : face_[s.triangle];
+  return s;
+}
+
 /// A closest point inside a face stays in the plane of that face until another face is as near, which takes a motion of
 /// at least half the difference of the two distances.
 double SurfaceQuery::flat_radius(const Eigen::Vector3d& p, const Sample& sample, const CandidateList& list,
                                  const FlatnessWanted& wanted) const {
-  if (sample.feature != Feature::face) return 0;
+  if (sample.feature != Feature::face || walls_) return 0;
   const double distance = std::abs(sample.value), off = (p - list.center).norm();
   const auto alone = [&](double other) { return 0.5 * (other - distance) - wanted.from_edge; };
   double radius = std::min(near_, alone(list.reach - off));
@@ -263,7 +273,7 @@ void SurfaceQuery::search_tree(const Eigen::Vector3d& p, Nearest& nearest) const
 }
 
 double SurfaceQuery::lower_bound(const Eigen::Vector3d& p, std::uint32_t hint, const CandidateList* list) const {
-  if (!cells_ || !cells_->covers(p)) return 0;
+  if (!cells_ || walls_ || !cells_->covers(p)) return 0;  // the side of walls changes in their openings, too
   if (list == nullptr)
     list = &cells_->at(
         p, [&](const Eigen::Vector3d& center) { return candidates_of(center, hint < slot_.size() ? slot_[hint] : 0); });

@@ -11,7 +11,9 @@ export function makePartList(app) {
     return key(a) - key(b) || a - b;
   });
 
-  const stateOf = i => model.unsolved.has(i) ? 'stuck' : model.outIn(i) ? `step ${model.outIn(i).step}` : 'stays';
+  const open = i => model.plan.assembly.parts[i].open === true;
+  const stateOf = i => (open(i) ? 'open, ' : '') + leaving(i);
+  const leaving = i => model.unsolved.has(i) ? 'stuck' : model.outIn(i) ? `step ${model.outIn(i).step}` : 'stays';
   const rows = new Map();
   for (const i of order) {
     const {name} = model.parts[i];
@@ -21,7 +23,7 @@ export function makePartList(app) {
     const alone = iconButton('isolate', 'Isolate (I)', () => app.isolate(app.isolated?.has(i) && app.isolated.size === 1 ? null : new Set([i])));
     const row = element('li', {'data-part': name,
       onmouseenter: () => app.hover(i), onmouseleave: () => app.hover(-1)},
-      element('button.part', {type: 'button', title: name, onclick: () => app.select(app.selected === i ? -1 : i)}, dot,
+      element('button.part', {type: 'button', title: open(i) ? `${name}: its surface is not closed, and is a wall` : name, onclick: () => app.select(app.selected === i ? -1 : i)}, dot,
         element('span.name', {}, name), element('span.state', {}, stateOf(i))), clear, alone, hide);
     if (model.unsolved.has(i)) row.classList.add('bad');
     rows.set(i, {row, dot, hide, clear, alone});

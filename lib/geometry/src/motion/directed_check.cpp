@@ -18,7 +18,7 @@ Aabb box_under(const Placement& m, const Aabb& box) {
 }  // namespace
 
 DirectedCheck::DirectedCheck(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits,
-                             Budget& budget)
+                             Budget& budget, Lean lean)
     : a_(a),
       b_(b),
       motion_(motion),
@@ -26,9 +26,12 @@ DirectedCheck::DirectedCheck(const Solid& a, const Solid& b, const RelativeMotio
       budget_(budget),
       patch_of_(a.mesh.triangles.size(), kNoIndex),
       unclear_(
-          std::make_shared<std::vector<double>>(a.mesh.triangles.size(), std::numeric_limits<double>::infinity())) {}
+          std::make_shared<std::vector<double>>(a.mesh.triangles.size(), std::numeric_limits<double>::infinity())),
+      walls_(a.open || b.open),
+      lean_(lean) {}
 
 Finding DirectedCheck::run() {
+  if (walls_ && !rests_at(0)) return finding_;
   std::size_t done = 0;
   const auto up_to = [&](std::size_t instant) {
     return instant == done || descend(static_cast<double>(done), static_cast<double>(instant));
@@ -39,7 +42,11 @@ Finding DirectedCheck::run() {
     if (!holds) return finding_;
     done = w.end;
   }
-  if (up_to(motion_.segments())) sides();
+  if (!up_to(motion_.segments())) return finding_;
+  if (walls_)
+    rests_at(static_cast<double>(motion_.segments()));
+  else
+    sides();
   return finding_;
 }
 
@@ -63,6 +70,17 @@ std::uint32_t DirectedCheck::add(const Patch& patch) {
   return static_cast<std::uint32_t>(patches_.size() - 1);
 }
 
+Patch DirectedCheck::patch_of(std::uint32_t triangle, double side) const {
+  Patch patch{a_.bvh.corners(triangle), {}, triangle};
+  const double most = allowed(patch);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::uint32_t v = a_.mesh.triangles[triangle][c];
+    // Scaled so that a vertex has the same displacement in all its triangles.
+    patch.inward[c] = (side * limits_.at(a_.vertex_thickness[v]) / most) * a_.inward[v];
+  }
+  return patch;
+}
+
 /// Collects the triangles of A whose boxes come near B's box in the interval.
 void DirectedCheck::collect(const Interval& i, std::uint32_t id, List& list) {
   const TriangleBvh::Node& node = a_.bvh.nodes()[id];
@@ -77,16 +95,7 @@ void DirectedCheck::collect(const Interval& i, std::uint32_t id, List& list) {
   }
   for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
     const std::uint32_t t = a_.bvh.order()[k];
-    if (patch_of_[t] == kNoIndex) {
-      Patch patch{a_.bvh.corners(t), {}, t};
-      const double most = allowed(patch);
-      for (std::size_t c = 0; c < 3; ++c) {
-        const std::uint32_t v = a_.mesh.triangles[t][c];
-        // Scaled so that a vertex has the same displacement in all its triangles.
-        patch.inward[c] = (limits_.at(a_.vertex_thickness[v]) / most) * a_.inward[v];
-      }
-      patch_of_[t] = add(patch);
-    }
+    if (patch_of_[t] == kNoIndex) patch_of_[t] = add(patch_of(t, walls_ ? sides_[a_.shell_of[t]] : 1));
     list.push_back(patch_of_[t]);
   }
 }
@@ -218,6 +227,7 @@ bool DirectedCheck::exempt(const Interval& i, double margin, const Patch& patch)
 
 /// Certifies a patch for an interval, or adds it (or its pieces) to one of the lists. False: the check failed.
 bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule, List& same, List& later) {
+  if (walls_) return settle_wall(i, id, later);
   const Patch patch = patches_[id];
   const double most = allowed(patch), e = displacement(patch), leeway = most - limits_.overlap;
   const double margin = i.bend.at(patch.center(), patch.radius() + most);

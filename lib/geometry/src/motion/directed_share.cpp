@@ -33,7 +33,10 @@ DirectedCheck::DirectedCheck(const DirectedCheck& whole, const List& list, Budge
       motion_(whole.motion_),
       limits_(whole.limits_),
       budget_(budget),
-      unclear_(whole.unclear_) {
+      unclear_(whole.unclear_),
+      walls_(whole.walls_),
+      lean_(whole.lean_),
+      sides_(whole.sides_) {
   patches_.reserve(list.size());
   for (const std::uint32_t id : list) patches_.push_back(whole.patches_[id]);
 }

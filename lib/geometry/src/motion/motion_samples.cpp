@@ -13,6 +13,7 @@ namespace {
 template <class Take>
 bool sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const RelativeMotion& backward,
             bool of_second, SampledTimes which, const Take& take) {
+  if (a.open || b.open) return false;  // a point behind a wall may have come round it
   const std::size_t segments = motion.segments();
   const bool all = segments <= 12;
   const std::size_t times = all ? 24 : std::min<std::size_t>(2 * segments, 480);  // more samples rarely find more depth

@@ -56,10 +56,37 @@ class Ahead {
   Executor::TaskHandle task_;  // last: its destructor waits for the thread that uses the members above
 };
 
+/// A displaced copy of one part, or of the other, stays off the other's surface: either proves that neither passes a
+/// wall of the other. Copies of open parts are tried leaning both ways, and little, as a sheet in a slot needs it.
+Finding check_walls(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward,
+                    const Limits& limits, Budget& budget) {
+  constexpr double kLittle = 0.02;  // of the tolerance
+  std::optional<Finding> failed;
+  const auto certified = [&](bool second, double share, Lean lean) {
+    Limits part = limits;
+    part.penetration *= share;
+    Finding found = second ? DirectedCheck(b, a, backward, part, budget, lean).run()
+                           : DirectedCheck(a, b, forward, part, budget, lean).run();
+    found.of_second = second;
+    if (found.answer == Answer::certified) return true;
+    // The first failure tells where; one that is not sure outweighs those that are.
+    if (!failed || (failed->answer == Answer::violated && found.answer != Answer::violated)) failed = found;
+    return false;
+  };
+  for (const double share : {1.0, kLittle}) {
+    if (share < 1 && limits.penetration < limits.cells_from()) break;  // little already
+    for (const Lean lean : {Lean::back, Lean::front})
+      for (const bool second : {false, true})
+        if ((lean == Lean::back || (second ? b : a).open) && certified(second, share, lean)) return {};
+  }
+  return *failed;
+}
+
 }  // namespace
 
 Finding check_pair(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward,
                    const Limits& limits, Budget& budget) {
+  if (a.open || b.open) return check_walls(a, b, forward, backward, limits, budget);
   const bool swap = b.mesh.triangles.size() < a.mesh.triangles.size();
   const Solid &first = swap ? b : a, &second = swap ? a : b;
   const RelativeMotion &there = swap ? backward : forward, &back = swap ? forward : backward;

@@ -6,7 +6,9 @@
 #include <limits>
 #include <utility>
 
+#include "dismantle/geometry/disjoint_sets.h"
 #include "dismantle/geometry/face_axes.h"
+#include "dismantle/geometry/mesh_edges.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/ray.h"
@@ -151,6 +153,34 @@ Mesh turned(const Mesh& mesh, const Pose& frame) {
   return local;
 }
 
+/// The same triangles, connected only across edges that join exactly two of them in the same sense. So every piece is
+/// a manifold with two sides, and no vertex lies where it touches itself.
+Mesh cut_into_sheets(const Mesh& mesh) {
+  // Corners of triangles that are the same vertex of a sheet.
+  DisjointSets sets(3 * mesh.triangles.size());
+  const auto corner = [](std::uint32_t triangle, std::uint32_t k) { return 3 * triangle + k % 3; };
+  mesh_detail::for_each_edge(mesh_detail::sorted_edges(mesh), [&](const auto* first, const auto* last) {
+    if (last - first != 2 || first->forward == first[1].forward) return;
+    sets.join(corner(first->triangle, first->corner), corner(first[1].triangle, first[1].corner + 1U));
+    sets.join(corner(first->triangle, first->corner + 1U), corner(first[1].triangle, first[1].corner));
+  });
+  Mesh cut;
+  std::vector<std::uint32_t> number(3 * mesh.triangles.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    Triangle made{};
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t at = corner(t, k), root = sets.root(at);  // root <= at
+      if (root == at) {
+        number[at] = static_cast<std::uint32_t>(cut.vertices.size());
+        cut.vertices.push_back(mesh.vertices[mesh.triangles[t][k]]);
+      }
+      made[k] = number[root];
+    }
+    cut.triangles.push_back(made);
+  }
+  return cut;
+}
+
 bool share_corner(const Triangle& a, const Triangle& b) {
   for (const auto i : a)
     for (const auto j : b)
@@ -160,8 +190,12 @@ bool share_corner(const Triangle& a, const Triangle& b) {
 
 }  // namespace
 
-Solid::Solid(const Mesh& m, const Poll& poll)
-    : frame(tight_frame(m)), mesh(without_pinches(turned(m, frame))), bvh(mesh, poll), box(mesh.box()) {
+Solid::Solid(const Mesh& m, const Poll& poll, Surface surface)
+    : frame(tight_frame(m)),
+      mesh(surface == Surface::open ? turned(m, frame) : without_pinches(turned(m, frame))),
+      bvh(mesh, poll, surface),
+      box(mesh.box()),
+      open(surface == Surface::open) {
   normals.resize(mesh.triangles.size());
   for (std::size_t t = 0; t < normals.size(); ++t) normals[t] = triangle_normal(mesh, t);
   poll.before(mesh.triangles.size());
@@ -171,10 +205,10 @@ Solid::Solid(const Mesh& m, const Poll& poll)
   vertex_thickness.assign(mesh.vertices.size(), std::numeric_limits<double>::infinity());
 
   std::size_t shells = 0;
-  const std::vector<std::uint32_t> shell = shells_of(mesh, shells);
+  shell_of = shells_of(mesh, shells);
   std::vector<std::vector<std::uint32_t>> vertices(shells);
-  for (std::size_t t = 0; t < shell.size(); ++t)
-    vertices[shell[t]].insert(vertices[shell[t]].end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+  for (std::size_t t = 0; t < shell_of.size(); ++t)
+    vertices[shell_of[t]].insert(vertices[shell_of[t]].end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
   shell_begin.push_back(0);
   for (auto& list : vertices) {
     std::sort(list.begin(), list.end());
@@ -185,6 +219,7 @@ Solid::Solid(const Mesh& m, const Poll& poll)
 }
 
 void Solid::measure_thickness(double reach, const Poll& poll) {
+  if (open) return;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     poll.in_pass(t);
     thickness[t] = std::numeric_limits<double>::infinity();
@@ -218,6 +253,11 @@ void Solid::measure_thickness(double reach, const Poll& poll) {
 
 std::vector<Solid> split_into_solids(const Mesh& mesh, const Poll& poll) {
   poll.before(mesh.triangles.size());
+  if (!edge_use(mesh).closed()) {
+    std::vector<Solid> walls;
+    walls.emplace_back(cut_into_sheets(mesh), poll, Surface::open);
+    return walls;
+  }
   std::size_t shells = 0;
   const std::vector<std::uint32_t> shell = shells_of(mesh, shells);
   poll.before(mesh.triangles.size());

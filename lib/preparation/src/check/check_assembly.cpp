@@ -58,6 +58,14 @@ void add_part_findings(const PrepareReport& report, AssemblyCheck& check) {
                                 {},
                                 {}});
     }
+    if (part.kept && !part.open.empty())
+      check.findings.push_back({FindingKind::open,
+                                Severity::note,
+                                {part.name},
+                                fmt::format("'{}' is {}: its surface is a wall", part.name, part.open),
+                                "nothing, if this is meant; else mend it, or set assembly.open=exclude",
+                                {},
+                                {}});
     std::string done;
     std::vector<std::string> details;
     for (const std::string& action : part.summary) {
@@ -121,7 +129,9 @@ class Geometry {
     parallel_phase(
         bvhs_.size(), context, "check",
         [&](std::size_t i) {
-          bvhs_[i] = std::make_unique<TriangleBvh>(*assembly_.parts[i].mesh);
+          const Part& part = assembly_.parts[i];
+          bvhs_[i] = std::make_unique<TriangleBvh>(*part.mesh, geometry::Poll{},
+                                                   part.open ? Surface::open : Surface::closed);
           bodies_[i] = std::make_unique<DepthBody>(*assembly_.parts[i].mesh);
         },
         [&](std::size_t i) { return assembly_.parts[i].name; });

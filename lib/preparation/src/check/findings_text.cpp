@@ -15,6 +15,8 @@ std::string_view to_string(FindingKind kind) {
       return "unusable";
     case FindingKind::repaired:
       return "repaired";
+    case FindingKind::open:
+      return "open";
     case FindingKind::suspect:
       return "suspect";
     case FindingKind::duplicate:

@@ -38,6 +38,8 @@ class CertificateCheck {
     for (const auto& name : written.parts) {
       const auto id = state_.find(name);
       if (!id) return fmt::format("part '{}' is not in the assembly", name);
+      if (assembly_.parts[*id].open)
+        return fmt::format("the surface of part '{}' is open, and proofs are about solids", name);
       if (std::find(certificate.parts.begin(), certificate.parts.end(), *id) != certificate.parts.end())
         return fmt::format("part '{}' is listed twice", name);
       certificate.parts.push_back(*id);

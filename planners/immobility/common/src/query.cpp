@@ -28,8 +28,16 @@ bool near_each_other(const SeparationQuery& query, PartId a, PartId b) {
   return near.overlaps(query.assembly.parts.at(b).mesh->box());
 }
 
+bool is_open(const SeparationQuery& query, PartId part) { return query.assembly.parts.at(part).open; }
+
+bool any_open(const SeparationQuery& query) {
+  const auto open = [&](const PlacedPart& p) { return is_open(query, p.part); };
+  return std::ranges::any_of(query.moving, open) || std::ranges::any_of(query.fixed, open);
+}
+
 std::optional<std::pair<PartId, PartId>> pair_of(const SeparationQuery& query) {
   if (query.moving.size() != 1 || query.fixed.size() != 1) return std::nullopt;
+  if (any_open(query)) return std::nullopt;
   return std::minmax({query.moving.front().part, query.fixed.front().part});
 }
 

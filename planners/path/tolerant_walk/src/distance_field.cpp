@@ -116,7 +116,7 @@ double DistanceField::Grid::at(const Eigen::Vector3d& p, const DistanceField* fi
 DistanceField::DistanceField(std::shared_ptr<const Mesh> mesh, const Resolution& resolution)
     : resolution_(resolution),
       mesh_(std::move(mesh)),
-      bvh_(*mesh_),
+      bvh_(*mesh_, geometry::Poll{}, edge_use(*mesh_).closed() ? Surface::closed : Surface::open),
       box_(mesh_->box()),
       around_(inflated(box_, resolution.band())),
       closed_(edge_use(*mesh_).closed()),

@@ -12,6 +12,7 @@
 #include "dismantle/geometry/patch.h"
 #include "dismantle/geometry/relative_motion.h"
 #include "dismantle/geometry/solid.h"
+#include "dismantle/geometry/walls.h"
 #include "dismantle/geometry/winding.h"
 #include "dismantle/run_context.h"
 
@@ -81,9 +82,15 @@ struct Budget {
 
 /// Checks the surface of `a` against `b`. One object per check. Idle threads of the executor in the budget's context
 /// help; neither the finding nor the budget spent depends on them.
+///
+/// If one of them is open, the check needs no inside. It is certified if one displaced copy of all of `a` meets no
+/// triangle of `b` at any time. Each vertex of the copy is displaced by no more than its limit: into the part if `a` is
+/// closed, else each sheet to its side of `b` when the motion begins (find_sides()), which must be its side when the
+/// motion ends, too: the next motion begins there.
 class DirectedCheck {
  public:
-  DirectedCheck(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits, Budget& budget);
+  DirectedCheck(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits, Budget& budget,
+                Lean lean = Lean::back);
   Finding run();
   /// After a certified run: true if the vertex rule certified all of it. Then a single shrunken copy of A stayed clear
   /// of the surface of B at all times.
@@ -104,6 +111,7 @@ class DirectedCheck {
   Interval interval(double s0, double s1) const;
   double middle(const Interval& i) const;
   std::uint32_t add(const Patch& patch);
+  Patch patch_of(std::uint32_t triangle, double side) const;
   void collect(const Interval& i, std::uint32_t node, List& list);
   bool descend(double s0, double s1);
   bool wind(const Winding& winding);
@@ -134,6 +142,9 @@ class DirectedCheck {
   bool outside(const Placement& place, const Corners& moved) const;
   bool exempt(const Interval& i, double margin, const Patch& patch) const;
   bool sides();
+  // walls.cpp: if a part is open
+  bool rests_at(double time);
+  bool settle_wall(const Interval& i, std::uint32_t id, List& later);
   bool fail(Answer answer, const Eigen::Vector3d& point, double depth, std::uint32_t triangle, double time);
   double allowed(const Patch& patch) const { return limits_.at(a_.thickness[patch.triangle]); }
   /// Displacement of the patch: slightly below the limit, so that rounding cannot exceed the limit.
@@ -148,6 +159,9 @@ class DirectedCheck {
   std::vector<std::uint32_t> patch_of_;  // by triangle of A; kNoIndex until needed
   /// By triangle of A: recent tests with this margin or more proved nothing. Shares have no triangle in common.
   std::shared_ptr<std::vector<double>> unclear_;
+  bool walls_ = false;  // a part is open
+  Lean lean_ = Lean::back;
+  Sides sides_;  // by sheet of A, if there are walls
   std::vector<Piece> pieces_;
   bool by_shrunken_copy_ = true;
   Finding finding_;

@@ -26,9 +26,17 @@ struct ClosestPoint {
   std::uint32_t triangle = 0xffffffffu;  ///< 0xffffffff if nothing lies within the limit
 };
 
+/// Whether the triangles of a mesh enclose a volume.
+enum class Surface {
+  closed,  ///< each directed edge has its opposite
+  open,    ///< the surface has a boundary
+};
+
 /// Bounding-volume hierarchy over the triangles of one mesh. Immutable and safe to share between threads. The winding
 /// number of the surface, counted exactly along a ray, decides what is inside: overlapping shells count as their union,
-/// and a void with inward normals counts as outside.
+/// and a void with inward normals counts as outside. For open surfaces the generalised winding number decides (Jacobson
+/// et al. 2013), with far triangles summed up (Barill et al. 2018): inside is where the surface covers more than half
+/// of all directions.
 class DISMANTLE_API TriangleBvh {
  public:
   /// A box of the hierarchy.
@@ -38,13 +46,16 @@ class DISMANTLE_API TriangleBvh {
     std::uint32_t count = 0;  ///< leaf: number of triangles; inner: 0
   };
 
-  explicit TriangleBvh(const Mesh& mesh, const geometry::Poll& poll = {});  ///< copies the data it needs
+  /// Copies the data it needs.
+  explicit TriangleBvh(const Mesh& mesh, const geometry::Poll& poll = {}, Surface surface = Surface::closed);
 
   ClosestPoint closest(const Eigen::Vector3d& p,
                        double limit = std::numeric_limits<double>::infinity()) const;
-  int winding_number(const Eigen::Vector3d& p) const;
-  bool inside(const Eigen::Vector3d& p) const { return winding_number(p) > 0; }
-  /// Distance to the surface, negative inside. Exact.
+  int winding_number(const Eigen::Vector3d& p) const;  ///< for closed surfaces
+  /// The solid angle of the surface seen from p, as a share of the whole sphere; approximate. For open surfaces.
+  double generalised_winding_number(const Eigen::Vector3d& p) const;
+  bool inside(const Eigen::Vector3d& p) const;
+  /// Distance to the surface, negative inside. Exact for closed surfaces.
   double signed_distance(const Eigen::Vector3d& p) const;
   /// Calls f(triangle) for each triangle whose box overlaps `box`.
   void overlapping(const Aabb& box, const std::function<void(std::uint32_t)>& f) const;
@@ -55,9 +66,17 @@ class DISMANTLE_API TriangleBvh {
 
  private:
   void build(std::uint32_t first, std::uint32_t count, std::vector<Aabb>& boxes, const geometry::Poll& poll);
+  /// The triangles of a node, seen from far away.
+  struct Dipole {
+    Eigen::Vector3d center, area;  // of its triangles; area: sum of their area vectors
+    double reach = 0;              // largest distance of their corners from the centre
+  };
+  void sum_up(std::uint32_t node);
+
   std::vector<std::array<Eigen::Vector3d, 3>> corners_;  // by triangle id
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
+  std::vector<Dipole> dipoles_;  // by node; empty for closed surfaces
 };
 
 }  // namespace dismantle

@@ -18,6 +18,7 @@ namespace dismantle {
 enum class FindingKind {
   unusable,   ///< the part cannot be planned with: not closed, no volume, unreadable numbers
   repaired,   ///< its surface had to be changed
+  open,       ///< its surface is not closed: it is planned as a wall
   suspect,    ///< its surface has a problem, but is kept as it is
   duplicate,  ///< same geometry and place as another part
   overlap,    ///< two parts penetrate each other when assembled

@@ -19,10 +19,17 @@ enum class FlexibleParts {
   declared,    ///< those that the user declares
 };
 
+/// What becomes of parts whose surface is not closed after repair.
+enum class OpenSurfaces {
+  wall,     ///< they are planned: no part may pass through their surface
+  exclude,  ///< they are left out
+};
+
 /// The `assembly:` section of a configuration. Each step of appendix B.1 is a parameter.
 struct PrepareOptions {
   double weld = 1e-6;           ///< relative to the part's box diagonal
   bool repair = true;           ///< orient, close T-junctions and small holes, drop inner walls
+  OpenSurfaces open = OpenSurfaces::wall;
   double max_hole = 0.1;        ///< largest hole that is closed, share of the part's surface area
   bool drop_duplicates = true;  ///< step 3
   double max_overlap = 1.0;     ///< step 4: drop parts with more than this share of their volume in others; 1 = never
@@ -48,7 +55,8 @@ struct PartReport {
   std::string reason;                ///< not kept: why
   std::size_t vertices = 0, triangles = 0, shells = 0;
   bool watertight = false;
-  double volume = 0;  ///< input units cubed
+  std::string open{};  ///< kept although its surface is not closed: where it is open; else empty
+  double volume = 0;   ///< input units cubed; an estimate if it is open
 };
 
 /// What preparation did with the input.

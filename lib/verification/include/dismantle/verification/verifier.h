@@ -81,7 +81,16 @@ struct MotionCheck {
 ///      the box in the assembled frame of either part. So a pin that leaves along its axis takes one region along, and
 ///      its following points pass through the region of the other part. An overlap that the user declares, or that is
 ///      in a flexible part, has no region.
-/// A part inside a void of another part is outside its material. Accepted means proved. Refused means that a point
+/// A part inside a void of another part is outside its material.
+///
+/// A pair with an open part has another law, which needs no inside: at every instant one copy of one of the two parts,
+/// displaced by no more than the initial overlap plus max_penetration anywhere, meets no triangle of the other, and it is
+/// the same copy all the time. So no point is behind a wall by more than that, measured along the path from its own
+/// side. At rest, before and after the motion, the own side of a sheet is that to which the shortest displacement takes
+/// it off the other part. The initial overlap of such a pair is the smallest displacement that suffices when assembled;
+/// it has no region.
+///
+/// Accepted means proved. Refused means that a point
 /// beyond the limit was found, or (`uncertain`) that the proof failed at the resolution or within the counts of
 /// VerifyBudget. Motions that keep to 0.4 times the limit are not refused at ordinary corners.
 ///

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "dismantle/geometry/numerics.h"
+#include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/sdf/candidate_cells.h"
 #include "dismantle/sdf/closest_on_triangle.h"
 #include "dismantle/sdf/solid.h"
@@ -121,9 +122,11 @@ class SurfaceQuery {
   void look_in_list(const Eigen::Vector3d& p, const CandidateList& list, Nearest& nearest) const;
   void search_tree(const Eigen::Vector3d& p, Nearest& nearest) const;
   Sample signed_sample(const Eigen::Vector3d& p, const Nearest& nearest) const;
+  Sample wall_sample(const Eigen::Vector3d& p, Sample s, double distance) const;
   double flat_radius(const Eigen::Vector3d& p, const Sample& sample, const CandidateList& list,
                      const FlatnessWanted& wanted) const;
 
+  std::unique_ptr<const TriangleBvh> walls_;  // of an open surface, which the nearest feature does not have two sides of
   double near_;
   double coplanar_ = 0;  // distance from a plane within which a face of a single precision file is flat
   std::unique_ptr<CandidateCells> cells_;

@@ -14,7 +14,7 @@
 
 namespace dismantle::immobility {
 
-/// The closed shells of a part, computed once per assembly. Assembled frame.
+/// The closed shells of a part that is not open, computed once per assembly. Assembled frame.
 const std::vector<Solid>& solids_of(const SeparationQuery& query, PartId part);
 
 /// The penetration depth up to which motions of the pair have to be considered: the initial overlap and the query's
@@ -28,7 +28,12 @@ double slack_of(const SeparationQuery& query);
 /// True if their boxes are no further apart than the tolerance. Parts further apart do not hold each other.
 bool near_each_other(const SeparationQuery& query, PartId a, PartId b);
 
-/// The two parts of a query about a pair, in ascending order; nullopt when there are more.
+/// Proofs are about solids: what a part with an open surface encloses is not known, so nothing is proved about it.
+bool is_open(const SeparationQuery& query, PartId part);
+/// A part of the query is open.
+bool any_open(const SeparationQuery& query);
+
+/// The two parts of a query about a pair, in ascending order; nullopt when there are more, or one of them is open.
 std::optional<std::pair<PartId, PartId>> pair_of(const SeparationQuery& query);
 
 /// The pair in both orders.
