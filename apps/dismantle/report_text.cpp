@@ -17,7 +17,7 @@ std::string check_text(const Plan& plan, const PlanCheck& check) {
   for (std::size_t i = 0; i < plan.disassembly.size(); ++i) {
     const auto& step = plan.disassembly[i];
     const bool bad = std::ranges::any_of(check.problems, [&](const PlanProblem& p) { return p.step == step.step; });
-    out += fmt::format("{:>5}  {}  ", step.step, text::padded(text::names_of(step), width));
+    out += fmt::format("{:>5}  {}  ", step.step, text::padded(text::names_of(plan, step), width));
     if (bad)
       out += "NOT VALID\n";
     else if (step.forced)

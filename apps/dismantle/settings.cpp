@@ -20,11 +20,21 @@ void ConfigFlags::add_file_and_set(CLI::App& command) {
       ->allow_extra_args(false);
 }
 
-void ConfigFlags::add_key(CLI::App& command, const std::string& flag, const std::string& key,
-                          const std::string& value_name, const std::string& help) {
+CLI::Option* ConfigFlags::add_key(CLI::App& command, const std::string& flag, const std::string& key,
+                                  const std::string& value_name, const std::string& help) {
   keys_.push_back({nullptr, flag, key, std::make_unique<std::string>()});
   keys_.back().option =
       command.add_option(flag, *keys_.back().value, fmt::format("{} ({})", help, key))->option_text(value_name);
+  return keys_.back().option;
+}
+
+void ConfigFlags::add_list_key(CLI::App& command, const std::string& flag, const std::string& key,
+                               const std::string& value_name, const std::string& help) {
+  list_keys_.push_back({flag, key, std::make_unique<std::vector<std::string>>()});
+  command.add_option(flag, *list_keys_.back().values, fmt::format("{} ({})", help, key))
+      ->option_text(value_name)
+      ->take_all()
+      ->allow_extra_args(false);
 }
 
 ConfigSource ConfigFlags::source() const {
@@ -33,6 +43,8 @@ ConfigSource ConfigFlags::source() const {
   source.set = set_;
   for (const Key& key : keys_)
     if (key.option->count() > 0) source.options.push_back({key.flag, key.key, *key.value});
+  for (const ListKey& key : list_keys_)
+    for (const std::string& value : *key.values) source.options.push_back({key.flag, key.key, value, true});
   return source;
 }
 

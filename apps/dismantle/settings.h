@@ -20,8 +20,11 @@ class ConfigFlags {
  public:
   void add_file_and_set(CLI::App& command);
   /// `flag`: such as "--seed". Its value becomes that of `key` literally.
-  void add_key(CLI::App& command, const std::string& flag, const std::string& key, const std::string& value_name,
-               const std::string& help);
+  CLI::Option* add_key(CLI::App& command, const std::string& flag, const std::string& key,
+                       const std::string& value_name, const std::string& help);
+  /// As add_key; each use of the flag adds its value to the list of `key`.
+  void add_list_key(CLI::App& command, const std::string& flag, const std::string& key, const std::string& value_name,
+                    const std::string& help);
   ConfigSource source() const;
 
  private:
@@ -30,9 +33,14 @@ class ConfigFlags {
     std::string flag, key;
     std::unique_ptr<std::string> value;  // allocated, because the parser keeps its address
   };
+  struct ListKey {
+    std::string flag, key;
+    std::unique_ptr<std::vector<std::string>> values;
+  };
   std::string file_;
   std::vector<std::string> set_;
   std::vector<Key> keys_;
+  std::vector<ListKey> list_keys_;
 };
 
 /// Warns of each plugin file that cannot be used.

@@ -115,9 +115,10 @@ def step_stream(vertices, triangles):
     def record(tag, payload):
         return tag + struct.pack("<I", len(payload)) + payload
 
-    body = text(b"block") + struct.pack("<I", 1) + text(b"all") + b"\1\1\2\3\4" + text(b"")
+    body = text(b"block") + struct.pack("<I", 1) + text(b"all") + struct.pack("<I", 2) + text(b"1") + text(b"1.1") + text(b"block")
+    body += b"\1\1\2\3\4" + text(b"") + b"\0"
     body += struct.pack("<QQ", len(vertices), len(triangles))
-    return (b"\x10DSMREAD1" + record(b"U", text(b"mm")) + record(b"S", text(b"reading") + struct.pack("<II", 0, 1)) +
+    return (b"\x10DSMREAD2" + record(b"U", text(b"mm")) + record(b"S", text(b"reading") + struct.pack("<II", 0, 1)) +
             record(b"W", text(b"careful")) + record(b"B", body) +
             record(b"V", b"".join(struct.pack("<3d", *v) for v in vertices)) +
             record(b"T", b"".join(struct.pack("<3I", *t) for t in triangles)) + record(b"Z", struct.pack("<I", 1)))

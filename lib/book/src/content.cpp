@@ -169,11 +169,16 @@ class ContentWriter {
                 : options_.disassembly ? "Take out"
                                        : "Put in";
     for (const BookMover& mover : step.movers) {
+      std::vector<std::string> singles;
+      for (const std::size_t i : mover.parts) singles.push_back(assembly_.parts[i].name);
+      const std::vector<const PlanComponent*> whole = text::take_components(plan_.assembly, singles);
       std::map<std::size_t, std::size_t> of_item;
-      for (const std::size_t i : mover.parts) ++of_item[item_of_[i]];
+      for (const std::size_t i : mover.parts)
+        if (std::ranges::find(singles, assembly_.parts[i].name) != singles.end()) ++of_item[item_of_[i]];
       if (const BookChapter* built = chapter_of(mover.parts)) {
         page.moving.emplace_back(0, fmt::format("{} ({} parts)", chapter_name(*built), built->parts.size()));
       } else {
+        for (const PlanComponent* c : whole) page.moving.emplace_back(0, c->name);
         for (const auto& [item, n] : of_item)
           page.moving.emplace_back(content_.items[item].number,
                                    n == 1 && mover.parts.size() == 1

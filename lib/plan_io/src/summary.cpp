@@ -42,6 +42,22 @@ std::string accepted_text(const Plan& plan) {
   return accepted == 0 ? "" : fmt::format(", {} with a cut that you accept", text::counted(accepted, "step"));
 }
 
+/// One line for all uses of a product that are read alike.
+std::string components_text(const std::vector<PlanComponent>& components) {
+  std::string out;
+  for (auto c = components.begin(); c != components.end(); ++c) {
+    const auto alike = [&](const PlanComponent& o) {
+      return o.kept == c->kept && o.product == c->product && o.reason == c->reason;
+    };
+    if (std::any_of(components.begin(), c, alike)) continue;
+    const auto uses = static_cast<std::size_t>(std::count_if(c, components.end(), alike));
+    out += fmt::format("{}: {}{} ({}): {}\n", c->kept ? "one unit" : "single parts", uses > 1 ? fmt::format("{}x ", uses) : "",
+                       c->product, fmt::format("{} bodies", c->parts.size()), c->reason);
+    if (c->kept) out += fmt::format("          --open \"{}\" plans its bodies one by one\n", c->product);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::size_t accepted_steps(const Plan& plan) {
@@ -78,18 +94,19 @@ std::string summary_text(const Plan& plan) {
   for (const auto& step : plan.disassembly) worst = std::max(worst, step.max_penetration);
   std::string out = fmt::format("{}: {}, {}, {}\n", a.source, text::counted(a.parts.size(), "part"),
                                 text::counted(plan.disassembly.size(), "step"), result_text(plan));
+  out += components_text(a.components);
   const std::size_t width = text::widest_step(plan);
   const double scale = a.scale > 0 ? a.scale : 1;  // people read input units
   const std::size_t forced = plan.forced_steps(), accepted = accepted_steps(plan);
   for (const auto& step : plan.disassembly) {
     if (step.forced) {
-      out += fmt::format("{:>5}  {}  {:8.2f} s  {}: {}\n", step.step, text::padded(text::names_of(step), width),
+      out += fmt::format("{:>5}  {}  {:8.2f} s  {}: {}\n", step.step, text::padded(text::names_of(plan, step), width),
                          step.seconds, step.forced->accepted.empty() ? "FORCED" : "accepted",
                          forced_text(plan, *step.forced));
       continue;
     }
     out +=
-        fmt::format("{:>5}  {}  {:8.2f} s  penetration <= {}\n", step.step, text::padded(text::names_of(step), width),
+        fmt::format("{:>5}  {}  {:8.2f} s  penetration <= {}\n", step.step, text::padded(text::names_of(plan, step), width),
                     step.seconds, length_text(plan, step.max_penetration / scale));
     out += overlaps_text(plan, step);
   }

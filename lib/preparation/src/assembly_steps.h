@@ -25,7 +25,9 @@ struct Candidate {
   double volume = 0;
   bool open = false;  ///< its surface is a wall
   std::optional<Rgba> colour;
-  std::vector<std::string> parents;
+  std::vector<std::string> parents, instances;
+  std::string product;
+  std::optional<double> density;
   std::string unit;
 
   std::unique_ptr<TriangleBvh> bvh() const {

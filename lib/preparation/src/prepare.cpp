@@ -107,6 +107,9 @@ class Preparation {
       c.mesh = std::move(raw[i].mesh);
       c.colour = raw[i].colour;
       c.parents = std::move(raw[i].parents);
+      c.instances = std::move(raw[i].instances);
+      c.product = std::move(raw[i].product);
+      c.density = raw[i].density;
       c.unit = raw[i].unit;
       c.box = c.mesh.box();
       c.volume = report.volume;
@@ -222,6 +225,9 @@ class Preparation {
       part.volume = part.open ? std::max(0.0, signed_volume(mesh)) : signed_volume(mesh);
       part.colour = parts_[i].colour;
       part.parents = parts_[i].parents;
+      part.instances = parts_[i].instances;
+      part.product = parts_[i].product;
+      part.density = parts_[i].density;
       if (mesh.box().size().maxCoeff() < 0.002 * options_.size && count++ < 5)
         small += fmt::format("{}'{}' ({:.2g})", small.empty() ? "" : ", ", part.name, mesh.box().size().maxCoeff());
       part.mesh = std::make_shared<const Mesh>(std::move(mesh));

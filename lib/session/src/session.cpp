@@ -14,6 +14,7 @@
 #include "dismantle/host/suggest.h"
 #include "dismantle/preparation/flexible_parts.h"
 #include "importers.h"
+#include "kept_components.h"
 #include "planning_setup.h"
 
 namespace dismantle {
@@ -216,12 +217,26 @@ RunResult Session::plan(const LoadedAssembly& loaded, const std::optional<RunCon
   RunOptions options = options_for(loaded, *assembly, request.part);
   if (request.resume != nullptr) options.resume = steps_of(*request.resume, *assembly, request);
   const PlanningSetup setup = checked_setup(config(), *registry_, request.part);
-  return run(*assembly, setup, options, context, request.on_step);
+  if (!request.part.empty()) return run(*assembly, setup, options, context, request.on_step);
+  const bool keeps = setup.sequence_planner->traits().keeps_constraints;
+  const auto components =
+      kept_components(*assembly, config(), keeps, options.resume ? &*options.resume : nullptr);
+  keep_together(components, options.constraints);
+  RunResult result = run(*assembly, setup, options, context, request.on_step);
+  result.plan.assembly.components = plan_components(components, result.plan);
+  return result;
 }
 
 Plan Session::plan_of(const Disassembly& so_far, const LoadedAssembly& loaded, const PlanRequest& request) const {
   const auto assembly = declared(loaded);
-  return dismantle::plan_of(so_far, *assembly, options_for(loaded, *assembly, request.part));
+  RunOptions options = options_for(loaded, *assembly, request.part);
+  if (!request.part.empty()) return dismantle::plan_of(so_far, *assembly, options);
+  const bool keeps = checked_setup(config(), *registry_, request.part).sequence_planner->traits().keeps_constraints;
+  const auto components = kept_components(*assembly, config(), keeps, &so_far);
+  keep_together(components, options.constraints);
+  Plan plan = dismantle::plan_of(so_far, *assembly, options);
+  plan.assembly.components = plan_components(components, plan);
+  return plan;
 }
 
 }  // namespace dismantle

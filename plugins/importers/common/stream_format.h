@@ -12,15 +12,15 @@
 
 namespace dismantle::reader_process {
 
-inline constexpr char kMagic[8] = {'D', 'S', 'M', 'R', 'E', 'A', 'D', '1'};
+inline constexpr char kMagic[8] = {'D', 'S', 'M', 'R', 'E', 'A', 'D', '2'};
 
 enum class Tag : std::uint8_t {
   unit = 'U',       ///< text: the length unit of all coordinates
   phase = 'S',      ///< text, u32 done, u32 total: progress
   warning = 'W',    ///< text
   note = 'N',       ///< text: nothing is wrong
-  body = 'B',       ///< text name, u32 number of parents, their names, u8 has colour, 4 x u8 RGBA, text problem,
-                    ///< u8 by meaning, u64 vertices, u64 triangles
+  body = 'B',       ///< text name, u32 number of parents, their names, u32 number of instances, their ids, text
+                    ///< product, u8 has colour, 4 x u8 RGBA, text problem, u8 by meaning, u64 vertices, u64 triangles
   vertices = 'V',   ///< 3 doubles each, of the last body
   triangles = 'T',  ///< 3 x u32 each, of the last body
   failure = 'E',    ///< u8 Failure, text

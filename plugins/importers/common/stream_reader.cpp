@@ -127,9 +127,14 @@ void StreamReader::begin_body(Payload& payload) {
   if (parts_.size() >= kInputLimits.instances) throw Broken{"too many bodies"};
   RawPart part;
   part.name = payload.text();
-  const auto parents = payload.take<std::uint32_t>();
-  if (parents > kInputLimits.nesting) throw Broken{"a body is nested too deep"};
-  for (std::uint32_t i = 0; i < parents; ++i) part.parents.push_back(payload.text());
+  const auto texts = [&](std::vector<std::string>& out, std::size_t most) {
+    const auto size = payload.take<std::uint32_t>();
+    if (size > most) throw Broken{"a body is nested too deep"};
+    for (std::uint32_t i = 0; i < size; ++i) out.push_back(payload.text());
+  };
+  texts(part.parents, kInputLimits.nesting);
+  texts(part.instances, kInputLimits.nesting + 1);
+  part.product = payload.text();
   const bool coloured = payload.take<std::uint8_t>() != 0;
   const auto rgba = payload.take<std::array<std::uint8_t, 4>>();
   if (coloured) part.colour = Rgba{rgba[0], rgba[1], rgba[2], rgba[3]};

@@ -23,6 +23,12 @@ void put_text(std::string& out, const std::string& text) {
   out.append(text, 0, size);
 }
 
+void put_texts(std::string& out, const std::vector<std::string>& texts, std::size_t most) {
+  const auto size = static_cast<std::uint32_t>(std::min(texts.size(), most));
+  put(out, size);
+  for (std::uint32_t i = 0; i < size; ++i) put_text(out, texts[i]);
+}
+
 }  // namespace
 
 StreamWriter::StreamWriter(int descriptor) : descriptor_(descriptor) { write_all(kMagic, sizeof kMagic); }
@@ -56,9 +62,9 @@ void StreamWriter::note(const std::string& text) {
 void StreamWriter::body(const Body& body) {
   std::string payload;
   put_text(payload, body.name);
-  const auto parents = static_cast<std::uint32_t>(std::min<std::size_t>(body.parents.size(), kInputLimits.nesting));
-  put(payload, parents);
-  for (std::uint32_t i = 0; i < parents; ++i) put_text(payload, body.parents[i]);
+  put_texts(payload, body.parents, kInputLimits.nesting);
+  put_texts(payload, body.instances, kInputLimits.nesting + 1);
+  put_text(payload, body.product);
   put(payload, static_cast<std::uint8_t>(body.colour.has_value()));
   for (const std::uint8_t channel : body.colour.value_or(std::array<std::uint8_t, 4>{})) put(payload, channel);
   put_text(payload, body.problem);

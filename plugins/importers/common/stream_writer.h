@@ -14,6 +14,8 @@ namespace dismantle::reader_process {
 struct Body {
   std::string name;
   std::vector<std::string> parents;                   ///< names of the assemblies that contain it, outermost first
+  std::vector<std::string> instances;                 ///< as RawPart::instances
+  std::string product;                                ///< name of the product whose body it is
   std::optional<std::array<std::uint8_t, 4>> colour;  ///< RGBA, sRGB
   std::string problem;      ///< not empty: reason why it cannot be a part; then it has no triangles
   bool by_meaning = false;  ///< of a problem: the file itself says that it is no part

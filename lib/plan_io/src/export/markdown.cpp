@@ -66,7 +66,7 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
         motion = motion_words(in_unit(summary, unit.factor), unit.name, frame.y_up);
       }
       const std::string what = step.separates.empty() ? " (shifted, stays)" : "";
-      out += fmt::format("| {} | {}{} | {} | {} | {} | {} |{}\n", step.step, markdown_text(text::names_of(step)), what,
+      out += fmt::format("| {} | {}{} | {} | {} | {} | {} |{}\n", step.step, markdown_text(text::names_of(plan, step)), what,
                          markdown_text(motion), step.layer > 0 ? steps_list(step.after) : "not recorded",
                          step.contacts.empty() ? "-" : markdown_text(text::joined(step.contacts)),
                          step.forced ? fmt::format("**{}: {:.2g}**", step.forced->accepted.empty() ? "forced" : "accepted",

@@ -33,7 +33,7 @@ std::string step_order_dot(const Plan& plan) {
     const bool accepted = step.forced && !step.forced->accepted.empty();
     const char* mark = accepted ? " (accepted)" : step.forced ? " (forced)" : "";
     out += fmt::format("  s{} [label={}{}];\n", step.step,
-                       dot_quoted(fmt::format("{}. {}{}", step.step, text::names_of(step), mark)),
+                       dot_quoted(fmt::format("{}. {}{}", step.step, text::names_of(plan, step), mark)),
                        step.forced && !accepted ? ", color=red, fontcolor=red" : "");
   }
   for (const PlanStep& step : plan.disassembly)
@@ -60,7 +60,7 @@ std::string step_order_graphml(const Plan& plan) {
         "    <node id=\"s{}\">\n      <data key=\"label\">{}</data>\n      <data key=\"step\">{}</data>\n"
         "      <data key=\"layer\">{}</data>\n      <data key=\"planner\">{}</data>\n"
         "      <data key=\"max_penetration\">{}</data>\n    </node>\n",
-        step.step, xml_text(text::names_of(step)), step.step, step.layer, xml_text(step.planner), step.max_penetration);
+        step.step, xml_text(text::names_of(plan, step)), step.step, step.layer, xml_text(step.planner), step.max_penetration);
   for (const PlanStep& step : plan.disassembly)
     for (const unsigned before : step.after)
       out += fmt::format("    <edge source=\"s{}\" target=\"s{}\"/>\n", before, step.step);

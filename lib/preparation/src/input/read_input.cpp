@@ -74,6 +74,7 @@ class Reader {
       part.file = valid_utf8(file.filename().string());
       part.problem = valid_utf8(part.problem);
       for (auto& parent : part.parents) parent = valid_utf8(parent);
+      part.product = valid_utf8(part.product);
     }
     return parts;
   }

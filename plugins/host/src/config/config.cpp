@@ -8,6 +8,7 @@
 #include <set>
 
 #include "config/binder.h"
+#include "config/components.h"
 #include "config/constraints.h"
 #include "config/layers.h"
 #include "config/sections.h"
@@ -46,6 +47,8 @@ class Loader {
       if (section.many != nullptr) bind_list(section);
     if (const ConfigNode* section = node("constraints"); section != nullptr)
       config_.constraints = read_constraints(*section, config_.constraint_names, problems_);
+    if (const ConfigNode* section = node("components"); section != nullptr)
+      config_.components = read_components(*section, config_.component_names, problems_);
     check_capabilities();
     return std::move(config_);
   }
@@ -82,7 +85,7 @@ class Loader {
   }
 
   void check_top_level() {
-    std::vector<std::string> known = {"schema", "extends", "plugins", "importers", "constraints"};
+    std::vector<std::string> known = {"schema", "extends", "plugins", "importers", "constraints", "components"};
     for (const auto& section : plugin_sections()) known.push_back(section.name);
     for (const auto& section : fixed_sections()) known.push_back(section.first);
     for (const auto& member : root_.members)

@@ -244,14 +244,42 @@ void merge_config(ConfigNode& base, ConfigNode over, std::vector<Diagnostic>& pr
   merge_maps(base, std::move(over), "", problems);
 }
 
+/// Adds to the list SECTION.KEY. What is no list stays: reading the section reports it.
+static void add_to_list(ConfigNode& root, const ConfigOption& option) {
+  const ConfigMark mark{std::make_shared<const std::string>("<" + option.flag + ">"), 0, 0};
+  const auto below = [&](ConfigNode& map, const std::string& key, ConfigNode::Kind kind) {
+    if (map.find(key) == nullptr) {
+      ConfigNode fresh;
+      fresh.kind = kind;
+      fresh.mark = mark;
+      map.members.push_back({key, mark, std::move(fresh)});
+    }
+    ConfigNode& value = map.find(key)->value;
+    return value.kind == kind ? &value : nullptr;
+  };
+  const std::size_t dot = option.key.find('.');
+  ConfigNode* section = below(root, option.key.substr(0, dot), ConfigNode::Kind::map);
+  ConfigNode* list =
+      section == nullptr ? nullptr : below(*section, option.key.substr(dot + 1), ConfigNode::Kind::sequence);
+  if (list == nullptr) return;
+  ConfigNode item;
+  item.kind = ConfigNode::Kind::scalar;
+  item.scalar = option.value;
+  item.mark = mark;
+  list->items.push_back(std::move(item));
+}
+
 ConfigNode merged_tree(const ConfigSource& source, std::vector<Diagnostic>& problems) {
   ConfigNode root;
   root.kind = ConfigNode::Kind::map;
   if (source.file) root = FileChain(problems).load(source.file->string(), nullptr);
   Overrides overrides(problems);
   for (std::size_t i = 0; i < source.set.size(); ++i) overrides.set(source.set[i], static_cast<int>(i) + 1);
-  for (const auto& option : source.options) overrides.option(option);
+  for (const auto& option : source.options)
+    if (!option.adds) overrides.option(option);
   merge_config(root, overrides.take(), problems);
+  for (const auto& option : source.options)
+    if (option.adds) add_to_list(root, option);
   ConfigNode sections;
   sections.kind = ConfigNode::Kind::map;
   sections.members = source.sections;

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "config/components.h"
 #include "config/yaml_writer.h"
 #include "dismantle/host/config.h"
 #include "dismantle/preparation/sha256.h"
@@ -148,6 +149,7 @@ std::string resolved_yaml(const RunConfig& config, const Registry& registry, con
     for (const auto& [part, pose] : config.layout.poses) writer.pose(part, pose);
   }
   writer.constraints(config.constraints);
+  for (const std::string& line : component_lines(config.components)) writer.line(line);
   fixed("run");
   fixed("verify");
   return writer.text();

@@ -161,6 +161,14 @@ std::string json_schema(const Registry& registry) {
                                  {"flexible", names},
                                  {"overlap", {{"type", "array"}, {"items", overlap}}},
                                  {"accept", {{"type", "array"}, {"items", accept}}}}}};
+  properties["components"] = {
+      {"type", "object"},
+      {"additionalProperties", false},
+      {"description", "Which products of the file are put in as one, by names; '*' and '?' match."},
+      {"properties",
+       {{"level", {{"anyOf", {{{"enum", {"component", "solid"}}}, {{"type", "integer"}, {"minimum", 1}}}}}},
+        {"together", names},
+        {"apart", names}}}};
   properties["layout"]["properties"]["poses"] = {
       {"type", "object"},
       {"description",

@@ -78,8 +78,9 @@ class SceneReader {
       const aiNode* node;
       Eigen::Matrix4d above;
       std::vector<std::string> parents;
+      std::vector<std::string> instances;  ///< of the file and of the parents
     };
-    std::vector<Visit> pending{{scene_.mRootNode, Eigen::Matrix4d::Identity(), {}}};
+    std::vector<Visit> pending{{scene_.mRootNode, Eigen::Matrix4d::Identity(), {}, {"0"}}};
     std::size_t visited = 0;
     while (!pending.empty()) {
       const Visit visit = pending.back();
@@ -88,11 +89,15 @@ class SceneReader {
         fail(fmt::format("more than {} nodes", reader_process::kInputLimits.instances));
       Eigen::Matrix4d to_world = visit.above;
       if (visit.node != scene_.mRootNode || !ignore_root_transform) to_world *= matrix(visit.node->mTransformation);
-      add(*visit.node, to_world, visit.parents);
-      std::vector<std::string> path = visit.parents;
-      if (groups(*visit.node)) path.emplace_back(visit.node->mName.C_Str());
+      const std::string id = std::to_string(visited);
+      add(*visit.node, id, to_world, visit.parents, visit.instances);
+      std::vector<std::string> path = visit.parents, instances = visit.instances;
+      if (groups(*visit.node)) {
+        path.emplace_back(visit.node->mName.C_Str());
+        instances.push_back(id);
+      }
       for (unsigned i = visit.node->mNumChildren; i-- > 0;)
-        pending.push_back({visit.node->mChildren[i], to_world, path});
+        pending.push_back({visit.node->mChildren[i], to_world, path, instances});
     }
     if (parts_.empty()) fail(other_primitives_ ? "only points or lines, no triangles" : "no triangles");
     return std::move(parts_);
@@ -111,9 +116,12 @@ class SceneReader {
   }
 
   /// All meshes of one node form one part: formats split them only by material.
-  void add(const aiNode& node, const Eigen::Matrix4d& to_world, const std::vector<std::string>& parents) {
+  void add(const aiNode& node, const std::string& id, const Eigen::Matrix4d& to_world,
+           const std::vector<std::string>& parents, const std::vector<std::string>& instances) {
     RawPart part;
     part.parents = parents;
+    part.instances = instances;
+    part.instances.push_back(id);
     OneColour colour;
     part.name = node.mName.C_Str();
     part.file = file_.filename().string();
@@ -125,6 +133,7 @@ class SceneReader {
                      ? colour_of(*scene_.mMaterials[mesh.mMaterialIndex], linear_)
                      : std::nullopt);
     }
+    part.product = part.name;
     part.colour = colour.get();
     if (part.mesh.empty()) return;
     if (other_primitives_) part.mesh = without_unused(part.mesh);

@@ -195,6 +195,8 @@ class Converter {
     Body body;
     body.name = placed.name;
     body.parents = placed.parents;
+    body.instances = placed.instances;
+    body.product = placed.product;
     if (placed.kind == BodyKind::open_shell) {
       body.problem = "it is a surface and no solid (an open shell of " + std::to_string(placed.faces) +
                      (placed.faces == 1 ? " face" : " faces") + "): close or thicken it in the CAD program";

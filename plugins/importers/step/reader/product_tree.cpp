@@ -44,6 +44,12 @@ std::size_t count(const TopoDS_Shape& shape, TopAbs_ShapeEnum what, TopAbs_Shape
   return n;
 }
 
+/// Where the walk is.
+struct Path {
+  std::vector<std::string> parents;    ///< names of assemblies
+  std::vector<std::string> instances;  ///< ids of uses; one more than parents: that of what is visited
+};
+
 class Walker {
  public:
   Walker(const Handle(XCAFDoc_ShapeTool) & shapes, TextEncoding encoding)
@@ -52,7 +58,9 @@ class Walker {
   ProductTree walk() {
     TDF_LabelSequence roots;
     shapes_->GetFreeShapes(roots);
-    for (const TDF_Label& root : roots) visit(root, name(root), TopLoc_Location(), {}, std::nullopt);
+    std::size_t count = 0;
+    for (const TDF_Label& root : roots)
+      visit(root, name(root), TopLoc_Location(), {{}, {std::to_string(++count)}}, std::nullopt);
     give_names();
     return std::move(tree_);
   }
@@ -69,7 +77,8 @@ class Walker {
 
   /// `instance`: name of the instance, for products without a name.
   void visit(const TDF_Label& label, const std::string& instance, const TopLoc_Location& place,
-             const std::vector<std::string>& parents, const std::optional<Rgba8>& colour) {
+             const Path& path, const std::optional<Rgba8>& colour) {
+    const std::vector<std::string>& parents = path.parents;
     if (++visited_ > reader_process::kInputLimits.instances)
       throw std::length_error("more than a million instances of products");
     if (parents.size() > reader_process::kInputLimits.nesting)
@@ -84,34 +93,41 @@ class Walker {
       if (!XCAFDoc_ShapeTool::GetReferredShape(label, product))
         return leave_out(label, instance, parents, "the file has no product for this component", false);
       const std::optional<Rgba8> own = colour ? colour : colour_of(label);
-      visit(product, instance, place * XCAFDoc_ShapeTool::GetLocation(label), parents, own);
+      visit(product, instance, place * XCAFDoc_ShapeTool::GetLocation(label), path, own);
       return;
     }
     if (XCAFDoc_ShapeTool::IsAssembly(label)) {
       TDF_LabelSequence components;
       XCAFDoc_ShapeTool::GetComponents(label, components, Standard_False);
-      std::vector<std::string> below = parents;
-      below.push_back(!instance.empty() ? instance : name(label));
-      for (const TDF_Label& component : components) visit(component, name(component), place, below, colour);
+      Path below = path;
+      below.parents.push_back(!instance.empty() ? instance : name(label));
+      below.instances.emplace_back();
+      std::size_t count = 0;
+      for (const TDF_Label& component : components) {
+        below.instances.back() = path.instances.back() + "." + std::to_string(++count);
+        visit(component, name(component), place, below, colour);
+      }
       if (components.IsEmpty()) leave_out(label, instance, parents, "it is an assembly without components", false);
       return;
     }
-    place_product(label, instance, place, parents, colour);
+    place_product(label, instance, place, path, colour);
   }
 
   void place_product(const TDF_Label& label, const std::string& instance_name, const TopLoc_Location& place,
-                     const std::vector<std::string>& parents, const std::optional<Rgba8>& colour) {
+                     const Path& path, const std::optional<Rgba8>& colour) {
     const Product& product = product_of(label);
     std::string own = name(label);
     if (own.empty()) own = instance_name.empty() ? "part" : instance_name;
-    if (product.members.empty()) return leave_out(label, instance_name, parents, problem_of(product), product.drawn());
+    if (product.members.empty()) return leave_out(label, instance_name, path.parents, problem_of(product), product.drawn());
     for (std::size_t i = 0; i < product.members.size(); ++i) {
       const auto& member = product.members[i];
       PlacedBody body;
       const bool alone = product.members.size() == 1;
       body.name = alone ? own : own + ":" + (member.name.empty() ? std::to_string(i + 1) : member.name);
       bearers_[body.name].push_back({tree_.bodies.size(), &product});
-      body.parents = parents;
+      body.parents = path.parents;
+      body.instances = path.instances;
+      body.product = own;
       body.kind = member.kind;
       body.shape = member.shape;
       body.instance = place;

@@ -20,6 +20,9 @@ enum class BodyKind { solid, closed_shell, open_shell };
 struct PlacedBody {
   std::string name;                  ///< unique
   std::vector<std::string> parents;  ///< names of the assemblies that contain it, outermost first
+  /// Of its assemblies and of its product: one id for each use, unique in the file, outermost first.
+  std::vector<std::string> instances;
+  std::string product;
   BodyKind kind = BodyKind::solid;
   TopoDS_Shape shape;  ///< with its location in the product, without the location of the instance
   TopLoc_Location instance;

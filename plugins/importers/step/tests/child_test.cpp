@@ -26,7 +26,7 @@ class StepChild : public ::testing::Test {
 TEST_F(StepChild, EveryEndBecomesAnErrorThatNamesTheFile) {
   for (const char* script :
        {"exit 0\n", "exit 3\n", "kill -SEGV $$\n", "kill -KILL $$\n", "echo garbage\n", "head -c 3000000 /dev/zero\n",
-        "printf DSMREAD1\n", "printf 'DSMREAD1Z\\004\\0\\0\\0\\001\\0\\0\\0'\n"}) {
+        "printf DSMREAD2\n", "printf 'DSMREAD2Z\\004\\0\\0\\0\\001\\0\\0\\0'\n"}) {
     const std::string error = error_with(script);
     EXPECT_NE(error.find("gear box.step: "), std::string::npos) << script << error;
     EXPECT_NE(error.find("export"), std::string::npos) << script << error;

@@ -45,10 +45,33 @@ inline std::string names_of(const PlanStep& step) {
   return joined(names);
 }
 
+/// Takes the parts of components that are kept and are there as a whole out of `parts`. Returns these components.
+inline std::vector<const PlanComponent*> take_components(const PlanAssembly& assembly, std::vector<std::string>& parts) {
+  std::vector<const PlanComponent*> out;
+  const auto in = [](const std::vector<std::string>& list) {
+    return [&list](const std::string& part) { return std::ranges::find(list, part) != list.end(); };
+  };
+  for (const PlanComponent& c : assembly.components) {
+    if (!c.kept || !std::ranges::all_of(c.parts, in(parts))) continue;
+    out.push_back(&c);
+    std::erase_if(parts, in(c.parts));
+  }
+  return out;
+}
+
+/// The names of the parts that a step moves; a component of the file that moves as a whole has its own name.
+inline std::string names_of(const Plan& plan, const PlanStep& step) {
+  std::vector<std::string> parts, names;
+  for (const auto& move : step.moves) parts.push_back(move.part);
+  for (const PlanComponent* c : take_components(plan.assembly, parts)) names.push_back(c->name);
+  names.insert(names.end(), parts.begin(), parts.end());
+  return joined(names);
+}
+
 /// Columns for the parts of a step, so that all steps fit.
 inline std::size_t widest_step(const Plan& plan) {
   std::size_t width = 4;
-  for (const auto& step : plan.disassembly) width = column_of(width, names_of(step));
+  for (const auto& step : plan.disassembly) width = column_of(width, names_of(plan, step));
   return width;
 }
 

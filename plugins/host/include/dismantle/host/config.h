@@ -17,6 +17,7 @@
 #include "dismantle/host/registry.h"
 #include "dismantle/parameters.h"
 #include "dismantle/path_oracle.h"
+#include "dismantle/preparation/components.h"
 #include "dismantle/preparation/prepare.h"
 #include "dismantle/verification/verifier.h"
 
@@ -73,10 +74,10 @@ DISMANTLE_API void declare_overlaps(const NamedConstraints& named, Assembly& ass
 /// @throws InputError that names every unknown part.
 DISMANTLE_API Constraints constraints_of(const NamedConstraints& named, const Assembly& assembly);
 
-/// A name in the `constraints:` section and its place.
+/// A name in the `constraints:` or `components:` section and its place.
 struct ConstraintName {
   std::string key;   ///< "before"
-  std::string name;  ///< of a part
+  std::string name;  ///< of a part; a pattern of products
   Diagnostic place;  ///< without a message
 };
 
@@ -94,6 +95,8 @@ struct RunConfig {
   LayoutOptions layout;
   NamedConstraints constraints;
   std::vector<ConstraintName> constraint_names;  ///< in reading order
+  ComponentChoice components;
+  std::vector<ConstraintName> component_names;  ///< in reading order
   std::map<std::string, ParamSet> importers;     ///< complete parameters by id; only importers with parameters
   std::vector<std::filesystem::path> plugin_search_paths;  ///< relative to the working directory, not to the file
 
@@ -110,6 +113,7 @@ struct ConfigOption {
   std::string flag;
   std::string key;
   std::string value;
+  bool adds = false;  ///< to the list that is the value of the key
 };
 
 /// The sources of a configuration: a file and overrides.
@@ -128,6 +132,10 @@ DISMANTLE_API RunConfig load_config(const ConfigSource& source, Registry& regist
 /// every unknown name, its place and the nearest known name.
 DISMANTLE_API void check_constraint_names(const RunConfig& config, const std::vector<std::string>& parts,
                                           const std::string& input);
+
+/// Checks that each pattern in `components` matches one of `products`. @throws ConfigError likewise.
+DISMANTLE_API void check_component_names(const RunConfig& config, const std::vector<std::string>& products,
+                                         const std::string& input);
 
 /// The parameters in `config.importers` that differ from the defaults.
 DISMANTLE_API ImportParams import_params_of(const RunConfig& config, const Registry& registry);
