@@ -1,0 +1,25 @@
+/// Step check: does the assembly have to be turned over?
+#pragma once
+
+#include "dismantle/parameters.h"
+#include "dismantle/step_check.h"
+
+namespace dismantle::checks {
+
+struct ReorientationsParams {
+  double angle = 0.1;
+  static void describe(Schema<ReorientationsParams>& s);
+};
+
+/// Costs 1 when the whole lies differently than in the operation before, and says so in a note.
+class Reorientations final : public StepCheck {
+ public:
+  explicit Reorientations(const ReorientationsParams& params = {}) : params_(params) {}
+  StepCheckTraits traits() const noexcept override { return {.remembers_orientation = true}; }
+  StepVerdict judge(const StepQuestion& question, const RunContext& context) const override;
+
+ private:
+  ReorientationsParams params_;
+};
+
+}  // namespace dismantle::checks
