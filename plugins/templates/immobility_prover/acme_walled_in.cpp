@@ -38,6 +38,8 @@ class AcmeWalledIn final : public dismantle::ImmobilityProver {
                                               const dismantle::RunContext& context) const override {
     if (query.moving.size() != 1 || query.fixed.size() != 1) return std::nullopt;
     const dismantle::PartId a = query.moving[0].part, b = query.fixed[0].part;
+    // What a part with an open surface encloses is not known.
+    if (query.assembly.parts[a].open || query.assembly.parts[b].open) return std::nullopt;
     // Separation is symmetric: either part may be the enclosed one.
     for (const auto& [inside, around] : {std::pair(a, b), std::pair(b, a)}) {
       const double allowed = query.assembly.initial_overlap(inside, around) + query.margin();

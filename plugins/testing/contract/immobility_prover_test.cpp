@@ -136,6 +136,21 @@ TEST_P(ImmobilityProverContract, NeverProvesPartsThatCanBeSeparated) {
       }
 }
 
+TEST_P(ImmobilityProverContract, StepsAsideForOpenParts) {
+  for (Question& question : inseparable()) {
+    for (Part& part : question.assembly.parts) {
+      Mesh open = *part.mesh;
+      open.triangles.pop_back();
+      part.mesh = part.surface = std::make_shared<const Mesh>(std::move(open));
+      part.open = true;
+    }
+    for (const auto& group : question.groups) {
+      const auto found = ask(*prover(), question.assembly, group, 0.004, 0.5, {});
+      EXPECT_FALSE(found) << question.name << ": " << (found ? found->text : "");
+    }
+  }
+}
+
 TEST_P(ImmobilityProverContract, SameCertificateAgainAndOnAnyNumberOfThreads) {
   for (const Question& question : inseparable())
     for (const auto& group : question.groups) {
