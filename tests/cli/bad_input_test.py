@@ -106,13 +106,14 @@ class Files(BadInput):
     def test_what_cannot_be_used_is_said_everywhere(self):
         self.folder_with("in", ("a.obj", "v 0 0\n"), ("b.obj", meshes.obj(*BESIDE)), ("c.obj", meshes.obj(*ABOVE)),
                          ("d.obj", meshes.obj(UNIT[0], UNIT[1][:6])))
-        done = self.run_program("plan", "in", *QUICK, "-o", "out", "--format", "json", status=1)
+        exclude = ("--set", "assembly.open=exclude")
+        done = self.run_program("plan", "in", *QUICK, *exclude, "-o", "out", "--format", "json", status=1)
         result = self.result_of(done)
         self.assertEqual((result["status"], result["parts"], result["unusable"]), ("partial", 2, ["a", "d"]))
         self.assertIn("left out: a: a.obj cannot be read: ", done.stderr)
         self.assertIn("left out: d: not watertight", done.stderr)
         self.assertIn("2 of 4 parts could not be used", done.stderr)
-        self.run_program("plan", "in", *QUICK, "-o", "out", "-q", status=1)
+        self.run_program("plan", "in", *QUICK, *exclude, "-o", "out", "-q", status=1)
         plan = json.loads(self.read("out", "plan.json"))
         self.assertEqual([e["name"] for e in plan["assembly"]["excluded"]], ["a", "d"])
         verified = self.run_program("verify", "out/plan.json", "--format", "json", status=1)
@@ -149,15 +150,30 @@ class Surfaces(BadInput):
 
     def test_what_has_no_inside_is_left_out_by_name(self):
         flat = ([(x, y, 0.0) for x, y, _ in UNIT[0]], UNIT[1])
-        for name, surface, reason in (("flat", flat, "no volume"), ("open", (UNIT[0], UNIT[1][:6]), "not watertight")):
-            self.beside_two(*surface)
-            parts, said, result = self.prepared("in", status=1)
-            self.assertFalse(parts["a"]["kept"], name)
-            self.assertIn(reason, parts["a"]["reason"])
-            self.assertIn("'a' is left out", said)
-            self.assertEqual((result["parts"], result["excluded"]), (2, 1))
+        self.beside_two(*flat)
+        parts, said, result = self.prepared("in", status=1)
+        self.assertFalse(parts["a"]["kept"])
+        self.assertIn("no volume", parts["a"]["reason"])
+        self.assertIn("'a' is left out", said)
+        self.assertEqual((result["parts"], result["excluded"]), (2, 1))
         self.run_program("plan", "in", *QUICK, "-o", "out", "-q", status=1)
         self.assertEqual([e["name"] for e in json.loads(self.read("out", "plan.json"))["assembly"]["excluded"]], ["a"])
+
+    def test_a_surface_that_is_not_closed_is_a_wall_or_left_out(self):
+        self.beside_two(UNIT[0], UNIT[1][:6])
+        parts, _, result = self.prepared("in", status=0)
+        self.assertTrue(parts["a"]["kept"])
+        self.assertIn("not watertight", parts["a"]["open"])
+        self.assertEqual((result["parts"], result["excluded"]), (3, 0))
+        done = self.run_program("plan", "in", *QUICK, "-o", "out", status=0)
+        self.assertIn("open: a: its surface is not closed, and is a wall", done.stdout + done.stderr)
+        assembly = json.loads(self.read("out", "plan.json"))["assembly"]
+        self.assertEqual([p["name"] for p in assembly["parts"] if p.get("open")], ["a"])
+        self.run_program("verify", "out/plan.json", status=0)
+        checked = self.result_of(self.run_program("check", "in", "--format", "json"))
+        self.assertEqual([f["parts"] for f in checked["findings"] if f["kind"] == "open"], [["a"]])
+        done = self.run_program("plan", "in", *QUICK, "-o", "out", "--set", "assembly.open=exclude", status=1)
+        self.assertIn("left out: a: not watertight", done.stdout + done.stderr)
 
     def test_faces_the_wrong_way_round_are_turned(self):
         some = [t[::-1] if i % 3 else t for i, t in enumerate(UNIT[1])]
