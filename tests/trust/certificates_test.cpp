@@ -14,6 +14,7 @@
 #include "dismantle/testing/built_in_provers.h"
 #include "dismantle/testing/held_shapes.h"
 #include "dismantle/testing/trials.h"
+#include "dismantle/testing/voxels.h"
 #include "dismantle/verification/check_certificate.h"
 
 namespace dismantle::trust {
@@ -35,6 +36,7 @@ struct Kind {
   std::vector<Forgery> forgeries;
   double margin = 0.01;
   int share = 1;  ///< one of this many trials is made: proofs take seconds
+  double of_tolerance = 1;  ///< share of the margin that is asked for
   int trials(int daily, int nightly) const { return std::max(1, testing_support::trials(daily, nightly) / share); }
 };
 
@@ -125,6 +127,22 @@ Assembly hooked(Rng& rng, bool held) {
   return placed({bar, shapes::plate(half * rng.uniform(1.5, 1.7), thick)}, rng);
 }
 
+/// A cube in a closed shell, with some room; without one cell of the shell it leaves.
+Assembly caged(Rng& rng, bool held) {
+  const Vec3 pitch(rng.uniform(0.5, 2), rng.uniform(0.5, 2), rng.uniform(0.5, 2));
+  const int room = 2 + static_cast<int>(rng.below(3));
+  voxels::Piece shell;
+  for (int x = 0; x < room + 2; ++x)
+    for (int y = 0; y < 3; ++y)
+      for (int z = 0; z < 3; ++z)
+        if ((y != 1 || z != 1 || x == 0 || x == room + 1) && (held || x != 2 || y != 1 || z != 2))
+          shell.push_back({x, y, z});
+  std::vector<Mesh> meshes{voxels::surface(shell), voxels::surface({{1, 1, 1}})};
+  for (Mesh& mesh : meshes)
+    for (Vec3& v : mesh.vertices) v = v.cwiseProduct(pitch);
+  return placed(std::move(meshes), rng);
+}
+
 Forgery elsewhere(const std::string& name) {
   return {name, [](Numbers& n, Rng& rng) { n.front() += rng.uniform(3, 5); }};
 }
@@ -170,13 +188,21 @@ const std::vector<Kind>& kinds() {
         scaled("axes", 1.01, 2), scaled("order", 2, 3), scaled("bounds", 0, 0.5), scaled("pairs", 0, 0.5),
         scaled("rows", 1.5, 2), scaled("multipliers", 1.5, 2)},
        0.002},
+      {"translations",
+       caged,
+       {scaled("axes", 1.01, 2), scaled("pitch", 1.3, 2), shifted("origin", 3), scaled("inset", 1.1, 2),
+        scaled("inset", 0, 0.02), scaled("counts", 1.1, 2), scaled("cells", 1.1, 1.9),
+        scaled("arrangements", 1.1, 1.9)},
+       0.01,
+       1,
+       0.5},
   };
   return all;
 }
 
 std::string objection(const Kind& kind, const Assembly& assembly, const Certificate& c) {
   PartMemo memo;
-  SeparationQuery query{assembly, {}, {}, kind.margin, 1, memo};
+  SeparationQuery query{assembly, {}, {}, kind.margin, kind.of_tolerance, memo};
   for (std::size_t i = 0; i < c.parts.size(); ++i)
     (i == 0 ? query.moving : query.fixed).push_back({c.parts[i], c.poses.empty() ? Pose{} : c.poses[i]});
   const auto found = independent_objection(c, query, {});
@@ -185,7 +211,7 @@ std::string objection(const Kind& kind, const Assembly& assembly, const Certific
 
 Certificate certificate_of(const Kind& kind, const Assembly& assembly) {
   PartMemo memo;
-  SeparationQuery query{assembly, {{0, Pose{}}}, {}, kind.margin, 1, memo};
+  SeparationQuery query{assembly, {{0, Pose{}}}, {}, kind.margin, kind.of_tolerance, memo};
   for (PartId id = 1; id < assembly.parts.size(); ++id) query.fixed.push_back({id, Pose{}});
   auto found = fake::prover_of_kind(kind.id)->prove(query, {});
   if (!found) return {};

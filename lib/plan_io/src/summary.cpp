@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "dismantle/plan_io/explain.h"
+#include "dismantle/plan_io/input_frame.h"
+#include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/text_columns.h"
 #include "dismantle/plan_io/verdicts.h"
@@ -28,6 +30,18 @@ std::string excluded_text(const std::vector<PlanExcluded>& excluded) {
   std::string out;
   for (const PlanExcluded& e : excluded) out += fmt::format("left out: {}: {}\n", e.name, e.reason);
   return out;
+}
+
+/// The motion of a step in words, as a line; "and stays" if it separates nothing.
+std::string moves_text(const Plan& plan, const InputFrame& frame, const PlanStep& step) {
+  if (step.moves.empty()) return {};
+  const Aabb& box = plan.assembly.box;
+  const TextUnit unit = frame.unit_known ? text_unit(frame.unit, box) : TextUnit{"units", 1};
+  const double size = box.empty() ? 1 : std::max(box.size().maxCoeff(), 1e-300);
+  const Eigen::Vector3d middle = box.empty() ? plan.assembly.center : box.center();
+  const MotionSummary motion = summarize_motion(step.moves.front().poses, middle, leg_tolerance(size));
+  return fmt::format("       {}{}\n", motion_words(in_unit(motion, unit.factor), unit.name, frame.y_up),
+                     step.separates.empty() ? ", and stays there" : "");
 }
 
 std::string asked_text(const Plan& plan) {
@@ -98,6 +112,10 @@ std::string summary_text(const Plan& plan) {
   const std::size_t width = text::widest_step(plan);
   const double scale = a.scale > 0 ? a.scale : 1;  // people read input units
   const std::size_t forced = plan.forced_steps(), accepted = accepted_steps(plan);
+  // In a puzzle, how far each piece goes is the solution; elsewhere parts just leave.
+  const bool puzzle = std::any_of(plan.disassembly.begin(), plan.disassembly.end(),
+                                  [](const PlanStep& step) { return step.separates.empty(); });
+  const InputFrame frame = puzzle ? input_frame(a) : InputFrame{};
   for (const auto& step : plan.disassembly) {
     if (step.forced) {
       out += fmt::format("{:>5}  {}  {:8.2f} s  {}: {}\n", step.step, text::padded(text::names_of(plan, step), width),
@@ -108,6 +126,7 @@ std::string summary_text(const Plan& plan) {
     out +=
         fmt::format("{:>5}  {}  {:8.2f} s  penetration <= {}\n", step.step, text::padded(text::names_of(plan, step), width),
                     step.seconds, length_text(plan, step.max_penetration / scale));
+    if (puzzle) out += moves_text(plan, frame, step);
     out += overlaps_text(plan, step);
   }
   if (forced > accepted)

@@ -13,6 +13,7 @@
 #include "dismantle/plan_io/exports.h"
 #include "dismantle/plan_io/input_frame.h"
 #include "dismantle/plan_io/motion_words.h"
+#include "dismantle/plan_io/summary.h"
 #include "dismantle/testing/shapes.h"
 
 namespace dismantle {
@@ -250,6 +251,27 @@ TEST(InputFrame, UnitsOfImportersAreKnownAndOthersNamed) {
   EXPECT_EQ(input_frame(a).metres, 1);
   a.parts.push_back({1, "b", "b.stl", {}, {}});
   EXPECT_FALSE(input_frame(a).y_up);
+}
+
+TEST(Summary, SaysOfAPuzzleWhereToAndHowFarEachPieceGoes) {
+  Plan plan;
+  plan.assembly.box = {{0, 0, 0}, {4, 4, 4}};
+  for (const char* name : {"key", "lock"}) plan.assembly.parts.push_back({0, name, std::string(name) + ".obj"});
+  const auto at = [](double x, double y, double z) {
+    return Pose{Eigen::Vector3d(x, y, z), Eigen::Quaterniond::Identity()};
+  };
+  PlanStep shifted, out;
+  shifted.step = 1;
+  shifted.moves = {{"key", {at(0, 0, 0), at(2, 0, 0), at(2, 0, 1)}}};
+  out.step = 2;
+  out.moves = {{"lock", {at(0, 0, 0), at(0, 0, -5)}}};
+  out.separates = {{"lock"}, {"key"}};
+  plan.disassembly = {shifted, out};
+  const std::string text = summary_text(plan);
+  EXPECT_NE(text.find("2 units right (+X), then 1 units up (+Z), and stays there\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("5 units down (-Z)\n"), std::string::npos) << text;
+  plan.disassembly = {out};
+  EXPECT_EQ(summary_text(plan).find("down"), std::string::npos) << "nothing is only shifted";
 }
 
 }  // namespace
