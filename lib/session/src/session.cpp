@@ -153,6 +153,7 @@ LoadedAssembly Session::load(InputParts parts, const std::string& source, const 
   declare_overlaps(constraints, assembly);
   report.flexible = with_declared(std::move(report.flexible), constraints.flexible, assembly);
   assembly.excluded.insert(assembly.excluded.end(), ignored.begin(), ignored.end());
+  state_kinds(config().parts, assembly);
   out.assembly = std::make_shared<const Assembly>(std::move(assembly));
   if (request.report != nullptr) out.report = report;
   out.prepared_with = config().sections.at("assembly");

@@ -12,6 +12,7 @@
 #include "config/constraints.h"
 #include "config/layers.h"
 #include "config/sections.h"
+#include "config/stated_parts.h"
 #include "dismantle/host/config_bind.h"
 
 namespace dismantle {
@@ -49,6 +50,8 @@ class Loader {
       config_.constraints = read_constraints(*section, config_.constraint_names, problems_);
     if (const ConfigNode* section = node("components"); section != nullptr)
       config_.components = read_components(*section, config_.component_names, problems_);
+    if (const ConfigNode* section = node("parts"); section != nullptr)
+      config_.parts = read_stated_parts(*section, problems_);
     check_capabilities();
     return std::move(config_);
   }
@@ -85,7 +88,7 @@ class Loader {
   }
 
   void check_top_level() {
-    std::vector<std::string> known = {"schema", "extends", "plugins", "importers", "constraints", "components"};
+    std::vector<std::string> known = {"schema", "extends", "plugins", "importers", "constraints", "components", "parts"};
     for (const auto& section : plugin_sections()) known.push_back(section.name);
     for (const auto& section : fixed_sections()) known.push_back(section.first);
     for (const auto& member : root_.members)

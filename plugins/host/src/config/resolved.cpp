@@ -56,6 +56,22 @@ class Writer {
                        quoted(a.as), to_text(ParamValue{a.depth})));
   }
 
+  void parts(const std::vector<StatedPart>& stated) {
+    if (!stated.empty()) line("parts:");
+    for (const StatedPart& p : stated) {
+      std::string out;
+      const auto add = [&](const char* key, const std::string& value) {
+        out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", key, value);
+      };
+      if (!p.kind.empty()) add("kind", quoted(p.kind));
+      if (!p.size.empty()) add("size", quoted(p.size));
+      if (p.length) add("length", to_text(ParamValue{*p.length}));
+      if (p.torque) add("torque", to_text(ParamValue{*p.torque}));
+      if (!p.glue.empty()) add("glue", quoted(p.glue));
+      line(fmt::format("  {}: {{{}}}", quoted(p.pattern), out));
+    }
+  }
+
   void section(const std::string& name, const std::vector<ParamSpec>& specs, const ParamSet& params) {
     yaml_.section(name, specs, params);
   }
@@ -150,6 +166,7 @@ std::string resolved_yaml(const RunConfig& config, const Registry& registry, con
   }
   writer.constraints(config.constraints);
   for (const std::string& line : component_lines(config.components)) writer.line(line);
+  writer.parts(config.parts);
   fixed("run");
   fixed("verify");
   return writer.text();

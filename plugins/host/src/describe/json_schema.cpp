@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "describe/json_value.h"
+#include "dismantle/fasteners/kinds.h"
 #include "dismantle/host/config.h"
 #include "dismantle/host/describe.h"
 
@@ -169,6 +170,17 @@ std::string json_schema(const Registry& registry) {
        {{"level", {{"anyOf", {{{"enum", {"component", "solid"}}}, {{"type", "integer"}, {"minimum", 1}}}}}},
         {"together", names},
         {"apart", names}}}};
+  const nlohmann::ordered_json length = {{"type", "number"}, {"exclusiveMinimum", 0}};
+  Json kinds = Json::array();
+  for (const std::string_view kind : fasteners::kKindNames) kinds.push_back(kind);
+  properties["parts"] = {
+      {"type", "object"},
+      {"description", "What parts are, by patterns of their names: kind, size, length (mm), torque (N m), glue."},
+      {"additionalProperties",
+       {{"type", "object"},
+        {"additionalProperties", false},
+        {"properties",
+         {{"kind", {{"enum", kinds}}}, {"size", name}, {"length", length}, {"torque", length}, {"glue", name}}}}}};
   properties["layout"]["properties"]["poses"] = {
       {"type", "object"},
       {"description",

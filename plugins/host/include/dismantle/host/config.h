@@ -74,6 +74,19 @@ DISMANTLE_API void declare_overlaps(const NamedConstraints& named, Assembly& ass
 /// @throws InputError that names every unknown part.
 DISMANTLE_API Constraints constraints_of(const NamedConstraints& named, const Assembly& assembly);
 
+/// What the user states of parts: an entry of the section `parts:`. Empty members are not stated.
+struct StatedPart {
+  std::string pattern;              ///< of names of parts: '*' stands for any text, '?' for one character
+  std::string kind{}, size{};       ///< see PartKind; `size` of a screw without its length
+  std::optional<double> length{};   ///< mm, > 0
+  std::optional<double> torque{};   ///< N m, > 0
+  std::string glue{};
+  Diagnostic place{};               ///< without a message
+};
+/// Sets Part::kind of the parts that the patterns match; later entries win. Call it after the kinds were recognised: what
+/// is not stated stays. @throws ConfigError with every pattern that matches no part, and its place.
+DISMANTLE_API void state_kinds(const std::vector<StatedPart>& stated, Assembly& assembly);
+
 /// A name in the `constraints:` or `components:` section and its place.
 struct ConstraintName {
   std::string key;   ///< "before"
@@ -97,6 +110,7 @@ struct RunConfig {
   std::vector<ConstraintName> constraint_names;  ///< in reading order
   ComponentChoice components;
   std::vector<ConstraintName> component_names;  ///< in reading order
+  std::vector<StatedPart> parts{};               ///< in reading order
   std::map<std::string, ParamSet> importers;     ///< complete parameters by id; only importers with parameters
   std::vector<std::filesystem::path> plugin_search_paths;  ///< relative to the working directory, not to the file
 
