@@ -9,7 +9,7 @@ namespace dismantle::checks {
 /// assembly's bounding box. Without a path it costs nothing.
 class PathLength final : public StepCheck {
  public:
-  StepCheckTraits traits() const noexcept override { return {}; }
+  StepCheckTraits traits() const noexcept override { return {.reads_present = false}; }
   StepVerdict judge(const StepQuestion& question, const RunContext& context) const override;
 };
 

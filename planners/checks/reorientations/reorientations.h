@@ -15,7 +15,9 @@ struct ReorientationsParams {
 class Reorientations final : public StepCheck {
  public:
   explicit Reorientations(const ReorientationsParams& params = {}) : params_(params) {}
-  StepCheckTraits traits() const noexcept override { return {.remembers_orientation = true}; }
+  StepCheckTraits traits() const noexcept override {
+    return {.remembers_orientation = true, .reads_present = false, .reads_path = false};
+  }
   StepVerdict judge(const StepQuestion& question, const RunContext& context) const override;
 
  private:
