@@ -102,13 +102,16 @@ class Reading {
   /// A printed part of several bodies looks like a purchased one: the file does not tell them apart.
   std::string reason_of_leaf(const Use& use) const {
     std::string out = fmt::format("one product of {} bodies, in which no other product is used", use.own.size());
-    if (!single_products()) out += "; doubtful: every product of the file has several bodies";
+    if (mostly_several()) out += "; doubtful: most products of the file have several bodies";
     return out;
   }
 
-  /// Is there a product of one body?
-  bool single_products() const {
-    return std::ranges::any_of(uses_, [](const auto& u) { return u.second.own.size() == 1; });
+  /// Do most products of the file have several bodies?
+  bool mostly_several() const {
+    std::set<std::string> single, several;
+    for (const auto& [id, use] : uses_)
+      if (!use.own.empty()) (use.own.size() > 1 ? several : single).insert(use.product);
+    return several.size() > single.size();
   }
 
   void give_names(std::vector<Component>& components) const {
