@@ -10,13 +10,13 @@
 
 namespace dismantle {
 
-/// The `components:` section. Patterns are those of fnmatch(3) and match names of products or of their instances.
+/// The `components:` section. Patterns are those of fnmatch(3) and match names of products, and of single uses of assemblies.
 struct ComponentChoice {
   enum class Level { component, solid, depth };
   std::optional<Level> level{};       ///< none: component, where the sequence planner can keep parts together
   unsigned depth = 0;                 ///< of Level::depth: in the product tree; the root is 0
-  std::vector<std::string> together;  ///< products that are kept as one, at any depth
-  std::vector<std::string> apart;     ///< products that are not
+  std::vector<std::string> together{};  ///< products that are kept as one, at any depth
+  std::vector<std::string> apart{};     ///< products that are not
   bool operator==(const ComponentChoice&) const = default;
 };
 
