@@ -88,7 +88,7 @@ std::vector<PlanComponent> plan_components(const std::vector<Component>& compone
     PlanComponent written{c.name, c.product, {}, c.kept, c.reason};
     for (const PartId id : c.parts) written.parts.push_back(plan.assembly.parts.at(id).name);
     if (const std::string why = c.kept ? trouble(c, written.parts, plan) : ""; !why.empty())
-      written.reason += "; it does not come out whole: " + why;
+      written.reason += "; it did not come out whole: " + why;
     out.push_back(std::move(written));
   }
   return out;
