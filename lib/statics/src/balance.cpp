@@ -7,7 +7,7 @@
 namespace dismantle::statics {
 namespace {
 
-constexpr double kBalanced = 1e-8;
+constexpr double kBalanced = 1e-6;
 
 Balance result_of(const Springs& springs, const Eigen::VectorXd& anchor, bool balanced) {
   Balance result{balanced, springs.residual(anchor), springs.forces(), springs.motion_of(springs.at()),

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dismantle/statics/balance.h"
+#include "dismantle/statics/certificates.h"
 
 namespace dismantle::statics {
 namespace {
@@ -13,7 +14,7 @@ using Vec3 = Eigen::Vector3d;
 using Stop = std::function<bool()>;
 
 constexpr double kSteepest = 89 * M_PI / 180;
-constexpr int kCuts = 30, kHalvings = 14;
+constexpr int kCuts = 50, kHalvings = 14;
 
 /// Work of the weights in a motion when gravity points to `down`.
 double work(const Pile& pile, const Motions& motion, const Vec3& down) {
@@ -23,26 +24,52 @@ double work(const Pile& pile, const Motions& motion, const Vec3& down) {
   return sum;
 }
 
-/// Largest angle <= `angle` at which forces balance the pile: every motion of falling shows at which angle it begins.
-double balanced_up_to(const Pile& pile, const Vec3& axis, double angle, const Stop& stop) {
+/// Answer about one value of a load: forces balance it, or a motion shows that none do from a smaller value on.
+struct Probe {
+  bool balanced = false;
+  std::optional<double> bound{};
+};
+
+/// The largest value in [0, high] that is balanced. A motion of falling gives the value at which it begins, which is
+/// then tried; without one the interval is halved.
+double largest_balanced(double high, const std::function<Probe(double)>& probe, const Stop& stop) {
+  double low = 0, x = high;
+  bool bounded = true;  // nothing above x is balanced
   for (int k = 0; k < kCuts && !(stop && stop()); ++k) {
-    const Balance found = balance(tilted(pile, axis, angle), FrictionLaw::associated, stop);
-    if (found.balanced) break;
-    // Work at the angle t: along * cos(t) + across * sin(t) for gravity turned about the axis.
-    const Vec3 fixed_part = axis.dot(pile.down) * axis;
-    const double along = work(pile, found.falling, pile.down - fixed_part);
-    const double across = work(pile, found.falling, -axis.cross(pile.down));
-    const double always = work(pile, found.falling, fixed_part);
-    const double size = std::hypot(along, across);
-    if (!(size > 0)) break;
-    // along cos t + across sin t = -always, the largest solution below the present angle.
-    const double middle = std::atan2(across, along), half = std::acos(std::clamp(-always / size, -1.0, 1.0));
-    const double begins = middle - half;
-    if (!(begins < angle * (1 - 1e-6))) break;
-    angle = std::max(0.0, begins);
-    if (angle == 0) break;
+    const Probe found = probe(x);
+    if (found.balanced) {
+      low = x;
+      if (bounded) return x;
+    } else {
+      high = x;
+    }
+    if (high - low <= 1e-4 * high) break;
+    bounded = !found.balanced && found.bound && *found.bound < high;
+    if (bounded && *found.bound <= low) return low;
+    x = bounded ? *found.bound : 0.5 * (low + high);
   }
-  return angle;
+  return low > 0 ? low : high;
+}
+
+/// Largest angle <= `angle` at which forces balance the pile.
+double balanced_up_to(const Pile& pile, const Vec3& axis, double angle, const Stop& stop) {
+  return largest_balanced(
+      angle,
+      [&](double x) -> Probe {
+        const Pile turned = tilted(pile, axis, x);
+        const Balance found = balance(turned, FrictionLaw::associated, stop);
+        if (found.balanced) return {true, {}};
+        if (!check_fall(turned, found.falling).empty()) return {};
+        // Work at the angle t: always + along * cos(t) + across * sin(t), for gravity turned about the axis.
+        const Vec3 fixed_part = axis.dot(pile.down) * axis;
+        const double along = work(pile, found.falling, pile.down - fixed_part);
+        const double across = work(pile, found.falling, -axis.cross(pile.down));
+        const double size = std::hypot(along, across);
+        if (!(size > 0)) return {};
+        const double cosine = std::clamp(-work(pile, found.falling, fixed_part) / size, -1.0, 1.0);
+        return {false, std::max(0.0, std::atan2(across, along) - std::acos(cosine))};
+      },
+      stop);
 }
 
 }  // namespace
@@ -72,23 +99,26 @@ std::optional<LeastPush> least_push(const Pile& pile, std::uint32_t body, const 
   Pile pushed = pile;
   for (int k = 0; k < 16; ++k) {
     const Vec3 way = std::cos(k * M_PI / 8) * u + std::sin(k * M_PI / 8) * v;
-    double force = least ? least->force : 100 * total;
-    for (int round = 0; round < kCuts && !(stop && stop()); ++round) {
-      pushed.pushes = pile.pushes;
-      pushed.pushes.push_back({body, pile.bodies[body].center, force * way});
-      const Balance found = balance(pushed, FrictionLaw::associated, stop);
-      if (found.balanced) break;
-      // The weights resist the motion by -weights, the push drives it by force * forward.
-      double weights = work(pile, found.falling, pile.down);
-      for (const Push& p : pile.pushes)
-        weights += found.falling[p.body].at(p.at - pile.bodies[p.body].center).dot(p.force);
-      const double forward = found.falling[body].v.dot(way);
-      const double limit = forward > 0 ? std::max(0.0, -weights / forward) : force;
-      if (!(limit < force * (1 - 1e-9))) break;
-      force = limit;
-      least = {body, force, way, found.falling};
-      if (force == 0) return least;
-    }
+    Motions motion;
+    const double most = least ? least->force : 100 * total;
+    const double force = largest_balanced(
+        most,
+        [&](double x) -> Probe {
+          pushed.pushes = pile.pushes;
+          pushed.pushes.push_back({body, pile.bodies[body].center, x * way});
+          Balance found = balance(pushed, FrictionLaw::associated, stop);
+          if (found.balanced) return {true, {}};
+          motion = std::move(found.falling);
+          if (!check_fall(pushed, motion).empty()) return {};
+          // The weights resist the motion by -weights, the push drives it by its force times forward.
+          double weights = work(pile, motion, pile.down);
+          for (const Push& p : pile.pushes)
+            weights += motion[p.body].at(p.at - pile.bodies[p.body].center).dot(p.force);
+          const double forward = motion[body].v.dot(way);
+          return {false, forward > 0 ? std::optional(std::max(0.0, -weights / forward)) : std::nullopt};
+        },
+        stop);
+    if (force < most) least = {body, force, way, std::move(motion)};
   }
   return least;
 }

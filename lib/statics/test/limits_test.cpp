@@ -24,6 +24,22 @@ TEST(CriticalTilt, IsTheAngleOfFrictionOrOfToppling) {
   EXPECT_NEAR(*critical_tilt(pile, Vec3::UnitX()) / kDegrees, std::atan(0.7) / kDegrees, 0.05);  // slides
 }
 
+TEST(CriticalTilt, OfAnArchIsThatOfThePaper) {
+  // 36 free voussoirs on two supports, thickness by radius 0.150: 8.2 degrees.
+  std::vector<Mesh> meshes;
+  const auto voussoir = [](double from, double to) {
+    return bent_box({from, -0.5, 0.925}, {to, 0.5, 1.075},
+                    [](const Vec3& p) { return Vec3(-p.z() * std::cos(p.x()), p.y(), p.z() * std::sin(p.x())); });
+  };
+  const double step = M_PI / 36;
+  meshes.push_back(voussoir(-step, 0));
+  meshes.push_back(voussoir(M_PI, M_PI + step));
+  for (int k = 0; k < 36; ++k) meshes.push_back(voussoir(k * step, (k + 1) * step));
+  const auto tilt = critical_tilt(pile_of(meshes, 2, 1.0), Vec3::UnitY());
+  ASSERT_TRUE(tilt);
+  EXPECT_NEAR(*tilt / kDegrees, 8.2, 0.08);
+}
+
 TEST(LeastPush, OfASlabOnTwoLegs) {
   const Mesh ground = box({-5, -5, -1}, {5, 5, 0});
   Pile pile = pile_of({ground, box({-2, -1, 0}, {-1, 1, 1}), box({1, -1, 0}, {2, 1, 1}), box({-2, -1, 1}, {2, 1, 1.2})},
