@@ -1,4 +1,6 @@
 // Projection to clearance, as far as there is room.
+#include <limits>
+
 #include "world_scene.h"
 
 namespace dismantle::sdf {
@@ -36,6 +38,21 @@ TEST_P(Retreat, ManyContactsDoNotPushIntoTheFewOnTheOtherSide) {
     EXPECT_EQ(world->penetration(s), 0);
     EXPECT_GE(room(*world, s), before - 1e-9);
     EXPECT_GE(room(*world, s), 0.15 * gap);
+  }
+}
+
+TEST_P(Retreat, WithoutALimitItTakesTheMiddleOfTheRoom) {
+  for (const double gap : {0.0005, 0.002, 0.01, 0.03}) {
+    SCOPED_TRACE(gap);
+    // A plate that lies on a table, under a ceiling.
+    const TestScene scene(GetParam(),
+                          {box(Vector3d(0, 0, 0), Vector3d(1, 1, 0.2)), box(Vector3d(-1, -1, -1), Vector3d(2, 2, 0)),
+                           box(Vector3d(-1, -1, 0.2 + gap), Vector3d(2, 2, 1))},
+                          {});
+    auto world = scene.world({0}, MotionSpace::rigid);
+    State s = world->initial_state();
+    world->project_to_clearance(s, std::numeric_limits<double>::infinity());
+    EXPECT_GE(room(*world, s), 0.25 * gap);
   }
 }
 

@@ -56,9 +56,10 @@ struct Table {
   std::atomic<std::size_t> checked = 0;  ///< number of paths
   std::shared_ptr<Executor> executor;    ///< its idle threads may help
 
-  explicit Table(Assembly a) : assembly(std::move(a)), verifier(assembly, {}) {
+  explicit Table(Assembly a, double tolerance = 0.01)
+      : assembly(std::move(a)), verifier(assembly, {.max_penetration = tolerance}) {
     RunContext context;
-    prepared = simulator->prepare(assembly, 0.01, context);
+    prepared = simulator->prepare(assembly, tolerance, context);
   }
 
   /// Plans the removal of part 0.

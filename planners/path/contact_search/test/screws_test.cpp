@@ -71,6 +71,16 @@ TEST(ContactSearchScrews, NutsOfAnySizeAreUnscrewed) {
   }
   EXPECT_GT(without_simulation, 0);
 }
+/// The play of a fit does not depend on what the verifier tolerates.
+TEST(ContactSearchScrews, AThreadComesOffAtAnyTolerance) {
+  for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
+    SCOPED_TRACE(tolerance);
+    const ParamSet thread{{"turns", 1.0}, {"segments", std::int64_t{32}}, {"clearance", 0.12}};
+    path::test::Table table(turned_sample("bolt_and_nut", thread, 1), tolerance);
+    const PathResult result = table.plan("contact_search", {}, 0, {.max_steps = kSteps}, {PartId{1}});
+    EXPECT_EQ(result.outcome(), Outcome::solved) << result.message;
+  }
+}
 TEST(ContactSearchScrews, ARingLeavesACurvedTube) {
   expect_solved_in_any_orientation("ring_on_curved_tube", "ring", {{"segments", std::int64_t{24}}});
 }

@@ -37,7 +37,7 @@ Path Verification::with_room(const Path& rubbing, const Work& work) const {
 }
 
 RunEnd Verification::show(const Path& whole, unsigned depth, const Work& work, PathResult& result) {
-  Path path = path::thin(whole, problem_.bodies, problem_.tactics.thinning);
+  Path path = path::thin(whole, problem_.bodies, problem_.thinning());
   for (const Path& refused : refusals_)
     if (same_path(refused, path)) return RunEnd::blocked;  // the world could not learn from the earlier refusal
   std::uint64_t refused_forms = 0;

@@ -38,7 +38,7 @@ void describe_search(Schema<P>& s) {
   s.advanced("intermediate", &SearchParameters::intermediate, {0, 1e6});
   s.advanced("end_similarity", &SearchParameters::end_similarity, {1e-3, 1});
   s.advanced("middle_lag", &SearchParameters::middle_lag, {0, 100});
-  s.advanced("thinning", &SearchParameters::thinning, {0, 0.01});
+  s.advanced("thinning", &SearchParameters::thinning, {0, 1});
   s.advanced("max_refusals", &SearchParameters::max_refusals, {0});
   s.advanced("translation_nodes", &SearchParameters::translation_nodes, {1});
   s.advanced("rotation_nodes", &SearchParameters::rotation_nodes, {1});
@@ -54,7 +54,7 @@ void describe_proposals(Schema<P>& s) {
   s.advanced("facet_angle", &ProposalParameters::facet_angle, {1e-4, 0.5});
   s.advanced("free_directions", &ProposalParameters::free_directions, {1, 1000});
   s.advanced("lean", &ProposalParameters::lean, {0.01, 1});
-  s.advanced("glide_step", &ProposalParameters::glide_step, {1, 1000});
+  s.advanced("glide_step", &ProposalParameters::glide_step, {1e-5, 0.5});
   s.advanced("glide_growth", &ProposalParameters::glide_growth, {0, 1});
   s.advanced("glide_kept", &ProposalParameters::glide_kept, {0.01, 1});
 }

@@ -31,7 +31,8 @@ struct Problem {
   std::vector<Contact> contacts(const State& state) const;
 
   // Lengths, assembly units.
-  double glide_step() const { return tactics.glide_step * query.tolerance; }
+  double glide_step() const { return tactics.glide_step * extents.longest_way_out(); }
+  double thinning() const { return tactics.thinning * query.tolerance; }
   /// Moves the parts away from their contacts; see SearchParameters::clearance.
   void give_room(State& state) const;
   double touch_distance() const { return tactics.touch_distance * query.tolerance; }

@@ -38,8 +38,9 @@ struct SearchParameters {
   /// Up to this many states in the middle of runs are expanded when the ends of runs are exhausted (with rotation: any
   /// number above 0 means all of them, after the ends of the same depth).
   std::int64_t intermediate = 256;
-  /// Poses that the rest of the path reproduces to within this distance are dropped (assembly units).
-  double thinning = 1e-4;
+  /// Poses that the rest of the path reproduces to within this distance are dropped. As a share of
+  /// verify.max_penetration.
+  double thinning = 0.1;
   std::int64_t max_refusals = 8;  ///< Paths that the verifier may refuse before the search gives up.
   /// Under `motion: auto` and a depth limit: states searched by translations per level of depth.
   std::int64_t translation_nodes = 24;
@@ -77,9 +78,10 @@ struct ProposalParameters {
   /// Share of `force` that presses a part against a wall while it slides along the wall, or along its axis while it
   /// turns.
   double lean = 0.5;
-  /// First distance between two state checks along a screw, and distance between the poses of its path, as a multiple
-  /// of verify.max_penetration. Larger: fewer checks, but thin obstacles are missed, and the verifier refuses the path.
-  double glide_step = 20;
+  /// First distance between two state checks along a screw, and distance between the poses of its path, as a share of
+  /// the way that separates the boxes of the parts for certain. Larger: fewer checks, but thin obstacles are missed,
+  /// and the verifier refuses the path.
+  double glide_step = 0.01;
   /// Distance between two state checks along a screw, as a share of the clear length so far. 0: always `glide_step`.
   double glide_growth = 0.25;
   double glide_kept = 0.75;  ///< A blocked screw is fitted again at this share of its clear length.
