@@ -36,7 +36,7 @@ void open(Component& component, std::string reason) {
 }
 
 /// Why it is not out as a whole; empty: it is, or it stays for another reason.
-std::string trouble(const Component& component, const std::vector<std::string>& names, const Plan& plan) {
+std::string trouble(const std::vector<std::string>& names, const Plan& plan) {
   const auto within = [&](const std::string& part) { return std::ranges::count(names, part) > 0; };
   for (const PlanStep& step : plan.disassembly)
     if (step.forced && step.forced->accepted.empty() && within(step.moves.front().part))
@@ -87,7 +87,7 @@ std::vector<PlanComponent> plan_components(const std::vector<Component>& compone
   for (const Component& c : components) {
     PlanComponent written{c.name, c.product, {}, c.kept, c.reason};
     for (const PartId id : c.parts) written.parts.push_back(plan.assembly.parts.at(id).name);
-    if (const std::string why = c.kept ? trouble(c, written.parts, plan) : ""; !why.empty())
+    if (const std::string why = c.kept ? trouble(written.parts, plan) : ""; !why.empty())
       written.reason += "; it did not come out whole: " + why;
     out.push_back(std::move(written));
   }
