@@ -179,6 +179,7 @@ void add_plan(CLI::App& app, Action& action) {
                       .description(""));
   options->config.add_list_key(*command, "--open", "components.apart", "NAME",
                                "Plan the bodies of this product one by one; may be repeated");
+  options->config.add_key(*command, "--target", "constraints.target", "NAME", "Stop when this part is out");
   options->config.add_key(*command, "--seed", "run.seed", "N", "Seed");
   options->config.add_key(*command, "--path-timeout", "run.path_timeout", "S", "Seconds for one attempt, 0 = no limit");
   options->config.add_key(*command, "--timeout", "run.timeout", "S", "Seconds for the whole run, 0 = no limit");

@@ -75,11 +75,31 @@ class Objective(CliTest):
         for planner in {"ndbg", "state_based", "blocking", "progressive"} & self.types:
             costs = []
             for weight in (0, 1):
-                done = self.run_program("plan", "pegs", "-o", "out", *self.QUICK, "--sequence-planner", planner,
+                done = self.run_program("plan", "pegs", "-o", "out", *self.QUICK, "--sequence-planner", planner, "--set", "run.best_order=false",
                                         "--set", f"objective=[{{type: directions, weight: {weight}}}]")
                 self.assertEqual(done.returncode, 0, done.stderr)
                 costs.append(self.read_plan("out")["objective"]["checks"][0]["cost"])
             self.assertEqual(costs, [5, 1], planner)
+
+    def test_the_order_of_any_planner_is_improved(self):
+        self.write_pegs(6)
+        costs = []
+        for best in ("false", "true"):
+            done = self.run_program("plan", "pegs", "-o", "out", *self.QUICK, "--sequence-planner", "queue",
+                                    "--set", "objective=[directions]", "--set", f"run.best_order={best}")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            objective = self.read_plan("out")["objective"]
+            costs.append(objective["cost"])
+        self.assertEqual(costs, [5, 1])
+        self.assertEqual(objective["least_cost"], 1)
+
+    def test_a_target_comes_out_in_one_step(self):
+        self.plan_with("[directions]", "all")
+        first = self.read_plan("all")["disassembly"][0]["separates"][0]
+        self.assertEqual(len(first), 1)
+        done = self.plan_with("[directions]", "one", "--target", first[0])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len(self.read_plan("one")["disassembly"]), 1)
 
     def test_a_verdict_that_differs_makes_the_plan_invalid(self):
         self.plan_with("[directions]", "out")

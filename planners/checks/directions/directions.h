@@ -16,7 +16,7 @@ struct DirectionsParams {
 class Directions final : public StepCheck {
  public:
   explicit Directions(const DirectionsParams& params = {}) : params_(params) {}
-  StepCheckTraits traits() const noexcept override { 
+  StepCheckTraits traits() const noexcept override {
     return {.remembers_direction = true, .reads_present = false, .reads_path = false};
   }
   StepVerdict judge(const StepQuestion& question, const RunContext& context) const override;

@@ -32,6 +32,8 @@ void BestOrderParams::describe(Schema<BestOrderParams>& s) {
 
 namespace {
 
+constexpr double kSame = 1e-9;  // costs that differ by less are equal
+
 /// Passes removals on, and keeps them.
 class Keeper final : public SequenceObserver {
  public:
@@ -124,10 +126,9 @@ class Rewriting {
       Segment& segment = *block.segment;
       Effort own{effort_.left / segments, effort_.stop};
       const std::uint64_t given = own.left;
-      order::Order best{segment.as_planned(), 0};
       const order::Task task = segment.task();
-      best.cost = order::cost_of(segment, task, best.variants);
-      const double planned = best.cost;
+      const double planned = order::cost_of(segment, task, segment.as_planned());
+      order::Order best{segment.as_planned(), planned};
       Effort exact{own.left / 2, own.stop};
       const order::BestFirst found = order::best_first(segment, task, best.cost, exact);
       own.left = own.left - given / 2 + exact.left;
@@ -139,11 +140,14 @@ class Rewriting {
         own.left -= most - wide.left;
         order::improve(segment, task, best, own);
       }
-      spent_ += given - own.left;
       const double sure = segment.unsure() ? order::lower_bound(segment, task, task.start, order::kNone) : found.bound;
-      bound_ += std::min(sure, best.cost);
+      // Costs that differ by less than the preferences count as equal.
+      const double slack = segment.most_preference();
+      const double cost = best.cost - segment.preference(best.variants), bound = sure - slack;
+      bound_ += cost - bound <= 2 * slack + kSame ? cost : std::max(0.0, bound);
       bounded_ = bounded_ && segment.exact();
-      worth_it_ = worth_it_ || best.cost < planned - 1e-9;
+      worth_it_ = worth_it_ || best.cost < planned - kSame;
+      spent_ += given - own.left;
       for (const VariantId v : best.variants) steps.push_back({nullptr, &segment, v});
     }
     return steps;
@@ -174,7 +178,7 @@ class Rewriting {
       context_.progress("order", done.size(), steps.size());
     }
     const double cost = order::cost_of(done, query_, context_);
-    if (cost < before - 1e-9) {
+    if (cost < before + kSame) {
       after_ = cost;
     } else {
       restore();
@@ -214,7 +218,8 @@ SequenceResult BestOrder::plan(const SequenceQuery& query, PathOracle& oracle, S
       inner_->plan({query.assembly, query.start, query.constraints, required, query.said}, oracle, keeper, context);
   for (Removal& removal : result.removals)
     if (removal.planner.empty()) removal.planner = params_.of.type();
-  if (query.objective.empty()) return result;
+  // The way to a target is short already, and ends with it.
+  if (query.objective.empty() || query.constraints.target) return result;
   if (result.removals.size() < 2 || context.should_stop() || result.outcome == Outcome::crashed) return result;
   // The checks may depend on what the inner planner has announced only, which is what was recorded.
   std::vector<Removal> plan;
@@ -225,7 +230,15 @@ SequenceResult BestOrder::plan(const SequenceQuery& query, PathOracle& oracle, S
     context.log(LogLevel::error, std::string("the order is not improved, a step check failed: ") + e.what());
   }
   result.removals.clear();
-  for (const auto& [removal, left] : keeper.all) result.removals.push_back(removal);
+  Disassembly done(query.assembly.parts.size(), query.start);
+  for (const auto& [removal, left] : keeper.all) {
+    done.add(step_of(removal));
+    result.removals.push_back(removal);
+  }
+  result.remaining.clear();
+  for (const std::vector<PartId>& group : done.groups())
+    if (&group == &done.groups().front() || group.size() > 1)
+      result.remaining.insert(result.remaining.end(), group.begin(), group.end());
   return result;
 }
 

@@ -18,7 +18,6 @@ bool is_done(const Task& task, const UnitSet& left) {
   switch (task.end) {
     case End::one_left: return left.size() <= 1;
     case End::exactly: return left == task.goal;
-    case End::without: return !left.intersects(task.goal);
   }
   return true;
 }
@@ -71,7 +70,6 @@ double cost_of(Problem& problem, const Task& task, const std::vector<VariantId>&
 /// Each unit that has to leave alone costs at least its cheapest variant. Such units of which no two have a common class need as many changes of the class as there are, less one.
 double lower_bound(Problem& problem, const Task& task, const UnitSet& left, VariantId last) {
   double sum = last == kNone ? 0 : problem.least(last), most = 0;
-  if (task.end == End::without) return sum;
   std::vector<std::uint64_t> classes;
   std::size_t may_stay = task.end == End::one_left ? 1 : 0;
   const double change = problem.change();

@@ -45,7 +45,6 @@ class Problem {
 enum class End {
   one_left,  ///< one unit is left, whichever
   exactly,   ///< the units of `goal` are left
-  without,   ///< the units of `goal` have left
 };
 
 struct Task {

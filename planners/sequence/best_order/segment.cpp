@@ -14,6 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kPreference = 1e-7;  // of a direction, by one degree; far below all costs of checks
 constexpr std::size_t kClasses = 63;  // of variants; the last one is for all others
 
 bool same(const Vector3d& a, const Vector3d& b) { return a.dot(b) > geometry::kSameDirection || (a.isZero() && b.isZero()); }
@@ -75,7 +76,7 @@ void Segment::add_units(const std::vector<const Removal*>& planned) {
     if (!unit_of_.contains(p.part)) left[kept[p.part]].push_back(p);
   for (auto& [first, parts] : left) add_unit(std::move(parts));
   stay_ = UnitSet(units());
-  one_left_ = units() == leaving + 1 && !scene_.query.constraints.target;
+  one_left_ = units() == leaving + 1;
   for (std::size_t u = leaving; u < units(); ++u) stay_.insert(u);
   needs_gone_.assign(units(), UnitSet(units()));
   for (const auto& [first, then] : scene_.query.constraints.before)
@@ -262,6 +263,22 @@ void Segment::forbid(VariantId v, const std::vector<PartId>& blocked_by) {
   move.blocking |= units;
 }
 
+double Segment::preference(VariantId v) const {
+  const Vector3d& d = moves_[variants_[v].move].motion.insertion;
+  if (d.isZero()) return 0;
+  const double along = d.cwiseAbs().maxCoeff(), upwards = d.dot(up(v).value_or(scene_.query.objective.up));
+  constexpr double kAlong = 0.9998, kSteep = 0.7;  // within 1, and 45, degrees
+  return kPreference * ((along > kAlong ? 0 : 4) + (upwards > kSteep ? 2 : upwards > -kSteep ? 1 : 0));
+}
+
+double Segment::preference(const std::vector<VariantId>& order) const {
+  double sum = 0;
+  for (const VariantId v : order) sum += preference(v);
+  return sum;
+}
+
+double Segment::most_preference() const { return 6 * kPreference * static_cast<double>(units()); }
+
 std::size_t Segment::memory(const Item& item, VariantId v) const {
   if (v == kNone) return 0;
   const Variant& variant = variants_[v];
@@ -272,7 +289,7 @@ std::size_t Segment::memory(const Item& item, VariantId v) const {
 }
 
 double Segment::cost(VariantId v, const UnitSet& rest, VariantId previous) {
-  double sum = 0;
+  double sum = preference(v);
   for (Item& item : items_) {
     const bool reads_rest = item.traits.reads_present || item.traits.reads_path;
     CostKey key{v, memory(item, previous), reads_rest ? rest : UnitSet()};

@@ -53,7 +53,7 @@ class Segment final : public Problem {
   const UnitSet& leaving(VariantId v) const override { return moves_[variants_[v].move].units; }
   bool may_leave(VariantId v, const UnitSet& present) override;
   double cost(VariantId v, const UnitSet& rest, VariantId previous) override;
-  double least(VariantId v) const override { return least_[v]; }
+  double least(VariantId v) const override { return least_[v] + preference(v); }
   std::uint64_t classes(VariantId v) const override { return std::uint64_t{1} << class_of_[v]; }
   double change() const override { return change_; }
   bool alike(VariantId a, VariantId b) const override { return class_of_[a] == class_of_[b]; }
@@ -65,6 +65,11 @@ class Segment final : public Problem {
   const Motion& motion(VariantId v) const { return moves_[variants_[v].move].motion; }
   const std::optional<Eigen::Vector3d>& up(VariantId v) const { return scene_.ups[variants_[v].up]; }
   const std::vector<PlacedPart>& start() const { return start_; }
+  /// Orders that cost the same by the checks differ a little: along an axis is better than along none, from above better
+  /// than from the side, and that better than from below. This is the part of cost() that says so, for an order.
+  double preference(const std::vector<VariantId>& order) const;
+  /// No order has a larger one.
+  double most_preference() const;
   /// The motion of the variant is not possible while these parts are there, whatever the sweeps said. Empty: never.
   void forbid(VariantId v, const std::vector<PartId>& blocked_by);
   /// False: a check reads the path, of which cost() knows only an estimate.
@@ -98,6 +103,7 @@ class Segment final : public Problem {
     std::unordered_map<CostKey, double, CostHash> known;
   };
 
+  double preference(VariantId v) const;
   void add_units(const std::vector<const Removal*>& planned);
   void add_moves(const std::vector<const Removal*>& planned);
   void add_straight(std::size_t unit);

@@ -141,6 +141,18 @@ TEST_P(StepCheckContract, ReadsNoMoreOfTheStepBeforeThanItsTraitsSay) {
   });
 }
 
+TEST_P(StepCheckContract, ReadsNoMoreOfTheStepThanItsTraitsSay) {
+  const auto check = make();
+  const StepCheckTraits traits = check->traits();
+  for_each_question([&](const StepQuestion& question) {
+    const StepVerdict verdict = check->judge(question, RunContext{});
+    StepQuestion asked = question;
+    if (!traits.reads_present) asked.present = {};
+    if (!traits.reads_path) asked.path = nullptr;
+    expect_same(verdict, check->judge(asked, RunContext{}), "without what it does not read");
+  });
+}
+
 TEST_P(StepCheckContract, ThePathMayBeUnknown) {
   const auto check = make();
   for_each_question([&](const StepQuestion& question) {
