@@ -91,7 +91,7 @@ TEST_F(Config, WhatIsWrongWithProvers) {
 
 TEST_F(Config, TheObjectiveIsAListOfChecksWithWeights) {
   using Ids = std::vector<std::string>;
-  EXPECT_TRUE(load_config({}, registry_).objective.empty()) << "any order is as good as another";
+  EXPECT_EQ(ids_of(load_config({}, registry_).objective), Ids{"directions"}) << "those of the default that are there";
   const std::string file = "schema: 1\nobjective: [{type: gravity, weight: 2, hands: 3, require: true}, directions]\n";
   const RunConfig config = load_text(file);
   ASSERT_EQ(ids_of(config.objective), (Ids{"gravity", "directions"}));
@@ -121,7 +121,7 @@ TEST_F(Config, WhatIsWrongWithAnObjective) {
        "objective.1.require must be true or false, got '1'"});
   expect("[gravity, directions, {type: gravity, hands: 2}]", {"run.yaml:2", "objective lists 'gravity' twice"});
   expect("gravity", {"run.yaml:2:12: error: objective must be a list of step_checks, got a value"});
-  expect("{gravity: {weight: 2}}", {"objective has no item 'gravity': it is empty"});
+  expect("{gravity: {weight: 2}}", {"objective has no item 'gravity'; items are 0 (directions)"});
 }
 
 TEST_F(Config, AllErrorsAtOnce) {

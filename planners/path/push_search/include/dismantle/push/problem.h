@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -31,7 +32,8 @@ struct Problem {
   std::vector<Contact> contacts(const State& state) const;
 
   // Lengths, assembly units.
-  double glide_step() const { return tactics.glide_step * extents.longest_way_out(); }
+  /// At least the tolerance, for parts without a box.
+  double glide_step() const { return std::max(query.tolerance, tactics.glide_step * extents.longest_way_out()); }
   double thinning() const { return tactics.thinning * query.tolerance; }
   /// Moves the parts away from their contacts; see SearchParameters::clearance.
   void give_room(State& state) const;
