@@ -80,7 +80,7 @@ class StopsInTheMiddle(dismantle.SequencePlanner):
                 raise ValueError("enough")
 
 
-LINES = {"path_planner": {"type": "test.lines"}, "sequence_planner": {"type": "progressive"}}
+LINES = {"path_planner": {"type": "test.lines"}, "sequence_planner": {"type": "progressive"}, "objective": []}
 
 
 @dismantle.step_check("test.alphabet", [dismantle.Parameter("reverse", False, "Descending.")])

@@ -38,7 +38,7 @@ bool passes(const Verifier& verifier, const std::vector<Vec3>& way) {
 }
 
 TEST(OpenParts, LeaveThroughTheOpeningAndNotThroughTheWall) {
-  for (const Mesh& mover : {shapes::box({-2, -2, 0}, {2, 2, 2}), shapes::box({-1, -1, 0}, {1, 1, 5}), sheet(2, 0),
+  for (const Mesh& mover : {shapes::box({-2, -2, 0}, {2, 2, 2}), shapes::box({-1, -1, 0}, {1, 1, 5}), sheet(1.9, 0.02),
                             sheet(1, 1)}) {
     const Verifier verifier(pair_of(mover, cup()), {kAllowed});
     EXPECT_TRUE(passes(verifier, {{0, 0, 8}}));
