@@ -15,8 +15,8 @@ namespace dismantle {
 namespace {
 
 /// Does the proof say that the moving parts cannot leave the fixed ones? It does when the part that it is about is on
-/// one side, and all its other parts are on the other. A proof about several parts as assembled is about whichever of
-/// them move.
+/// one side, and all its other parts are on the other. A proof of the kind translations is about whichever of its parts
+/// move.
 bool divides(const Certificate& proof, const Attempt& attempt) {
   const auto all_in = [](std::span<const PartId> parts, const std::vector<PlacedPart>& side) {
     return std::all_of(parts.begin(), parts.end(), [&](PartId id) { return contains(side, id); });
@@ -25,7 +25,7 @@ bool divides(const Certificate& proof, const Attempt& attempt) {
   if ((contains(attempt.moving, proof.parts.front()) && all_in(others, attempt.fixed)) ||
       (contains(attempt.fixed, proof.parts.front()) && all_in(others, attempt.moving)))
     return true;
-  return proof.parts.size() > 2 && proof.poses.empty() && !all_in(proof.parts, attempt.moving) &&
+  return proof.kind == "translations" && proof.poses.empty() && !all_in(proof.parts, attempt.moving) &&
          !all_in(proof.parts, attempt.fixed) && std::all_of(proof.parts.begin(), proof.parts.end(), [&](PartId id) {
            return contains(attempt.moving, id) || contains(attempt.fixed, id);
          });

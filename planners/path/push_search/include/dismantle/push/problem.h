@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -32,8 +33,11 @@ struct Problem {
   std::vector<Contact> contacts(const State& state) const;
 
   // Lengths, assembly units.
-  /// At least the tolerance, for parts without a box.
-  double glide_step() const { return std::max(query.tolerance, tactics.glide_step * extents.longest_way_out()); }
+  /// Parts without vertices, as in tests, have no way out of each other's boxes.
+  double glide_step() const {
+    const double way = extents.longest_way_out();
+    return std::isfinite(way) ? std::max(query.tolerance, tactics.glide_step * way) : 20 * query.tolerance;
+  }
   double thinning() const { return tactics.thinning * query.tolerance; }
   /// Moves the parts away from their contacts; see SearchParameters::clearance.
   void give_room(State& state) const;
