@@ -127,33 +127,29 @@ function(dismantle_add_late_library name)
   install(TARGETS ${name} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 endfunction()
 
-# Settings of a Google Test program, which is compiled with this optimisation in a release build: 0 compiles in half the
-# time and is enough for what runs once, because the libraries under test keep theirs.
-function(dismantle_use_test_pch target optimisation)
-  set(pch dismantle_test_pch_o${optimisation})
-  if(NOT TARGET ${pch})
-    dismantle_pch(${pch} ${DISMANTLE_COMMON_HEADERS} <gtest/gtest.h>)
-    target_link_libraries(${pch} PRIVATE GTest::gtest)
-    target_compile_options(${pch} PRIVATE $<$<CONFIG:Release>:-O${optimisation}>)
+# Settings of a Google Test program. Low optimisation, because each test runs once; the libraries under test keep theirs.
+function(dismantle_use_test_pch target)
+  if(NOT TARGET dismantle_test_pch)
+    dismantle_pch(dismantle_test_pch ${DISMANTLE_COMMON_HEADERS} <gtest/gtest.h>)
+    target_link_libraries(dismantle_test_pch PRIVATE GTest::gtest)
   endif()
-  dismantle_reuse_pch(${target} ${pch})
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O${optimisation}>)
+  dismantle_reuse_pch(${target} dismantle_test_pch)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # What `./check --sanitize` builds, and runs as the CTest tests with the label `sanitized`, and with the thread sanitizer `threads`.
 add_custom_target(sanitized_tests)
 add_custom_target(threads_tests)
 
-# dismantle_add_test(NAME SOURCES ... LIBRARIES ... [NEEDS FOLDER...] [USES FOLDER...] [THREADS FILTER] [UNSANITIZED] [COMPUTES]): a Google Test
+# dismantle_add_test(NAME SOURCES ... LIBRARIES ... [NEEDS FOLDER...] [USES FOLDER...] [THREADS FILTER] [UNSANITIZED]): a Google Test
 # program, run as one CTest test. It loads the plugins of these folders at run time. If one of NEEDS is missing, the test is
 # left out with a message; those of USES are optional. THREADS: the tests that use threads, as a filter of Google Test; only
-# these run with the thread sanitizer. UNSANITIZED: a library of others is not clean under the sanitizers. COMPUTES: the test itself, not the
-# library under test, does most of the work (brute force), so that it is worth optimising.
+# these run with the thread sanitizer. UNSANITIZED: a library of others is not clean under the sanitizers.
 function(dismantle_add_test name)
   if(NOT DISMANTLE_BUILD_TESTS)
     return()
   endif()
-  cmake_parse_arguments(ARG "UNSANITIZED;COMPUTES" "THREADS" "SOURCES;LIBRARIES;NEEDS;USES" ${ARGN})
+  cmake_parse_arguments(ARG "UNSANITIZED" "THREADS" "SOURCES;LIBRARIES;NEEDS;USES" ${ARGN})
   dismantle_left_out(missing ${name} ${ARG_NEEDS})
   if(missing)
     return()
@@ -161,11 +157,7 @@ function(dismantle_add_test name)
   find_package(GTest REQUIRED)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE dismantle_settings ${ARG_LIBRARIES} GTest::gtest GTest::gtest_main)
-  if(ARG_COMPUTES)
-    dismantle_use_test_pch(${name} 1)
-  else()
-    dismantle_use_test_pch(${name} 0)
-  endif()
+  dismantle_use_test_pch(${name})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
   dismantle_uses(${name} ${ARG_NEEDS} ${ARG_USES})
   set(filter "")
