@@ -45,8 +45,8 @@ struct StepCheckTraits {
   bool remembers_orientation = false;  ///< StepQuestion::up
   bool remembers_shape = false;        ///< the moving parts
   bool judges_plan = false;            ///< judge_plan() says more than the sum of its steps
-  /// False: StepQuestion::present, or ::path, has no influence on the verdict. Costs are then known before an order is,
-  /// which makes the bound of the cost of all orders better.
+  /// False: StepQuestion::present, or StepQuestion::path, has no influence on the verdict. Costs are then known before
+  /// an order is, which makes the bound of the cost of all orders better.
   bool reads_present = true, reads_path = true;
 };
 

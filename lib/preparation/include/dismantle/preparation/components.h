@@ -12,6 +12,7 @@ namespace dismantle {
 
 /// The `components:` section. Patterns are those of fnmatch(3) and match names of products, and of single uses of assemblies.
 struct ComponentChoice {
+  /// What is a unit: a product with several bodies that is used as a leaf, each body, or what is at a depth of the tree.
   enum class Level { component, solid, depth };
   std::optional<Level> level{};       ///< none: component, where the sequence planner can keep parts together
   unsigned depth = 0;                 ///< of Level::depth: in the product tree; the root is 0
@@ -36,6 +37,7 @@ DISMANTLE_API std::vector<Component> components_of(const Assembly& assembly, con
 
 /// Names that patterns can match, each once.
 DISMANTLE_API std::vector<std::string> product_names(const Assembly& assembly);
+/// As fnmatch(3).
 DISMANTLE_API bool matches(const std::string& name, const std::string& pattern);
 
 }  // namespace dismantle

@@ -14,9 +14,11 @@
 
 namespace dismantle::voxels {
 
+/// Indices of a cell along x, y and z.
 using Cell = std::array<int, 3>;
 using Piece = std::vector<Cell>;  ///< ascending
 
+/// The cell that is `steps` further along an axis.
 inline Cell moved(const Cell& c, int axis, int steps) {
   Cell to = c;
   to[static_cast<std::size_t>(axis)] += steps;
