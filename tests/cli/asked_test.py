@@ -69,7 +69,7 @@ class Asked(CliTest):
         self.assertEqual(plan["status"], "partial")
 
     def test_parts_that_cannot_be_used(self):
-        self.write("in/open.obj", "v 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\n")
+        self.write("in/open.obj", "v 5 0 0\nv 5 0 0\nv 5 0 0\nf 1 2 3\n")
         plan = self.agree(1, "partial", "some parts of the input could not be used")
         self.assertEqual([e.get("unusable") for e in plan["assembly"]["excluded"]], [True])
 

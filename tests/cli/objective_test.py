@@ -124,7 +124,7 @@ class Objective(CliTest):
         self.assertEqual(len(self.result_of(done)["not_checked"]), 1)
 
     def test_without_an_objective_the_plan_says_nothing_of_it(self):
-        self.run_program("plan", "machine", "-o", "out", *self.QUICK, status=0)
+        self.run_program("plan", "machine", "--set", "objective=[]", "-o", "out", *self.QUICK, status=0)
         self.assertNotIn("objective", self.read("out", "plan.json"))
         self.assertNotIn('"checks"', self.read("out", "plan.json"))
 
