@@ -26,9 +26,9 @@ class BadInput(CliTest):
             self.put(f"{name}/{file}", content)
         return name
 
-    def prepared(self, folder, status=0):
+    def prepared(self, folder, *options, status=0):
         """prepare.json of a folder that can be used, and what was said. Status 1: some parts cannot."""
-        done = self.run_program("prepare", folder, "-o", "clean", "--format", "json", status=status)
+        done = self.run_program("prepare", folder, "-o", "clean", "--format", "json", *options, status=status)
         report = json.loads(self.read("clean", "prepare.json"))
         return {p["name"]: p for p in report["parts"]}, done.stderr, self.result_of(done)
 
@@ -151,12 +151,12 @@ class Surfaces(BadInput):
     def test_what_has_no_inside_is_left_out_by_name(self):
         flat = ([(x, y, 0.0) for x, y, _ in UNIT[0]], UNIT[1])
         self.beside_two(*flat)
-        parts, said, result = self.prepared("in", status=1)
+        parts, said, result = self.prepared("in", "--set", "assembly.open=exclude", status=1)
         self.assertFalse(parts["a"]["kept"])
         self.assertIn("no volume", parts["a"]["reason"])
         self.assertIn("'a' is left out", said)
         self.assertEqual((result["parts"], result["excluded"]), (2, 1))
-        self.run_program("plan", "in", *QUICK, "-o", "out", "-q", status=1)
+        self.run_program("plan", "in", *QUICK, "--set", "assembly.open=exclude", "-o", "out", "-q", status=1)
         self.assertEqual([e["name"] for e in json.loads(self.read("out", "plan.json"))["assembly"]["excluded"]], ["a"])
 
     def test_a_surface_that_is_not_closed_is_a_wall_or_left_out(self):
