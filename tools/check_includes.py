@@ -28,7 +28,7 @@ ALLOWED = {
     "lib/verification": {"lib/geometry"},
     "lib/preparation": {"lib/geometry", "lib/fasteners", "lib/verification"},
     "lib/plan_io": {"lib/geometry"},
-    "lib/orders": {"lib/verification", "lib/plan_io"},
+    "lib/orders": {"lib/geometry", "lib/verification", "lib/plan_io"},
     "lib/book": {"lib/geometry", "lib/plan_io"},
     "lib/samples": {"lib/geometry"},
     "lib/engine": BELOW_ENGINE,

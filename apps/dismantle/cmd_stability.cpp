@@ -1,7 +1,6 @@
 // dismantle stability INPUT
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fnmatch.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -15,6 +14,7 @@
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/write_file.h"
+#include "dismantle/preparation/name_pattern.h"
 #include "dismantle/settings.h"
 #include "dismantle/stability_file.h"
 #include "dismantle/statics/stability.h"
@@ -80,7 +80,7 @@ template <class F>
 void for_matching(const Assembly& assembly, const std::string& pattern, const std::string& option, F&& f) {
   bool any = false;
   for (const Part& part : assembly.parts)
-    if (part.name == pattern || ::fnmatch(pattern.c_str(), part.name.c_str(), 0) == 0) {
+    if (name_matches(part.name, pattern)) {
       f(part.id);
       any = true;
     }

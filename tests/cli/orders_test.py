@@ -32,8 +32,8 @@ class Orders(CliTest):
 
     def test_replay_needs_an_order(self):
         self.assert_fails(3, "it states no order", "replay", "in", "--no-plan")
-        self.csv("strange.csv", ["nobody"])
-        self.assert_fails(3, "the assembly has no part 'nobody'", "replay", "in", "--no-plan", "--order", "strange.csv")
+        self.csv("strange.csv", ["no_such_part"])
+        self.assert_fails(3, "the assembly has no part 'no_such_part'", "replay", "in", "--no-plan", "--order", "strange.csv")
 
     def test_orders_are_compared_side_by_side(self):
         self.csv("same.csv", [self.base, *reversed(self.out)])

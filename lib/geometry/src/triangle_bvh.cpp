@@ -338,7 +338,7 @@ void TriangleBvh::sum_up(std::uint32_t id) {
 }
 
 double TriangleBvh::generalised_winding_number(const Vec3& p) const {
-  constexpr double kFar = 3;  // in reaches: an error below 0.01 of the whole sphere
+  constexpr double kFar = 4;  // in reaches: an error below 0.01 of the whole sphere
   if (dipoles_.empty()) return winding_number(p);
   double angle = 0;
   std::array<std::uint32_t, kStackSize> stack;

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "dismantle/geometry/face_axes.h"
 #include "dismantle/part_set.h"
 #include "dismantle/verification/motion_depth.h"
 #include "reference_groups.h"
@@ -13,45 +14,24 @@
 namespace dismantle {
 namespace {
 
-constexpr std::size_t kOwnAxes = 3;   // of the faces of an item's parts, beside the coordinate axes
-constexpr double kSameAxis = 0.9999;  // cosine
-constexpr double kSameFace = 0.999;   // cosine between normals of faces that count together
+constexpr std::size_t kOwnAxes = 3;  // of the faces of an item, beside the coordinate axes
+constexpr double kSameAxis = 1 - 1e-6;  // cosine: a straight path that deviates more rubs at a long fit
 
-/// Unit vectors without their opposites: the coordinate axes, and the normals of the largest faces.
-class Axes {
- public:
-  Axes() {
-    for (int k = 0; k < 3; ++k) all_.push_back(Eigen::Vector3d::Unit(k));
-  }
-
-  void add_faces(const Mesh& mesh) {
-    std::vector<std::pair<double, Eigen::Vector3d>> normals;
-    for (const Triangle& t : mesh.triangles) {
-      const Eigen::Vector3d n =
-          (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
-      if (!(n.norm() > 0)) continue;
-      const Eigen::Vector3d unit = n.normalized();
-      const auto same = std::find_if(normals.begin(), normals.end(), [&](const auto& known) {
-        return std::abs(known.second.dot(unit)) > kSameFace;
-      });
-      if (same != normals.end())
-        same->first += n.norm();
-      else if (normals.size() < 200)
-        normals.emplace_back(n.norm(), unit);
-    }
-    std::stable_sort(normals.begin(), normals.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    for (std::size_t k = 0; k < std::min(kOwnAxes, normals.size()); ++k) add(normals[k].second);
-  }
-
-  const std::vector<Eigen::Vector3d>& all() const { return all_; }
-
- private:
-  void add(const Eigen::Vector3d& axis) {
-    if (std::none_of(all_.begin(), all_.end(), [&](const auto& a) { return std::abs(a.dot(axis)) > kSameAxis; }))
-      all_.push_back(axis);
-  }
-  std::vector<Eigen::Vector3d> all_;
-};
+/// Unit vectors without their opposites: the coordinate axes, and those of the largest faces of a single part.
+std::vector<geometry::FaceAxis> axes_of(const ReplayedItem& item, const Assembly& assembly) {
+  std::vector<geometry::FaceAxis> axes;
+  for (int k = 0; k < 3; ++k) axes.push_back({Eigen::Vector3d::Unit(k), 0});
+  if (item.parts.size() > 1) return axes;
+  const Mesh& mesh = *assembly.parts[item.parts.front()].mesh;
+  std::vector<geometry::FaceAxis> faces;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (const Eigen::Vector3d area = geometry::area_vector(mesh, t); area.norm() > 0)
+      faces.push_back({area.normalized(), area.norm()});
+  faces = geometry::rounded_axes(faces);
+  geometry::sort_by_area(faces, kOwnAxes);
+  for (const geometry::FaceAxis& face : faces) geometry::add_face(axes, face, kSameAxis);
+  return axes;
+}
 
 std::vector<PlacedPart> as_assembled(const std::vector<PartId>& parts) {
   std::vector<PlacedPart> placed;
@@ -130,22 +110,15 @@ class Replay {
     out_.push_back(std::move(item));
   }
 
-  Axes axes_of(const ReplayedItem& item) const {
-    Axes axes;
-    if (item.parts.size() == 1) axes.add_faces(*assembly_.parts[item.parts.front()].mesh);
-    return axes;
-  }
-
   Path straight(const ReplayedItem& item, const Eigen::Vector3d& along) const {
     return {std::vector<Pose>(item.parts.size()), std::vector<Pose>(item.parts.size(), Pose{far_ * along, Pose{}.q})};
   }
 
   bool leaves(ReplayedItem& item, const std::vector<PartId>& rest) const {
     const std::vector<PlacedPart> fixed = as_assembled(rest);
-    const Axes axes = axes_of(item);
-    for (const Eigen::Vector3d& axis : axes.all())
+    for (const geometry::FaceAxis& face : axes_of(item, assembly_))
       for (const double sign : {1.0, -1.0}) {
-        const Eigen::Vector3d out = sign * axis;
+        const Eigen::Vector3d out = sign * face.axis;
         if (!verifier_.check_motion(item.parts, fixed, straight(item, out), context_).valid) continue;
         item.direction = -out;
         return true;
@@ -156,15 +129,15 @@ class Replay {
   /// Where it cuts in least.
   void explain(ReplayedItem& item, const std::vector<PartId>& rest) {
     double least = std::numeric_limits<double>::infinity();
-    const Axes axes = axes_of(item);
-    for (const Eigen::Vector3d& axis : axes.all())
+    for (const geometry::FaceAxis& face : axes_of(item, assembly_))
       for (const double sign : {1.0, -1.0}) {
+        const Eigen::Vector3d out = sign * face.axis;
         MotionDepthOptions options;
         options.stop_above = least;
-        const auto found = meter_.deepest(item.parts, as_assembled(rest), straight(item, sign * axis), options, context_);
+        const auto found = meter_.deepest(item.parts, as_assembled(rest), straight(item, out), options, context_);
         if (!found || !(found->excess() < least)) continue;
         least = found->excess();
-        item.direction = -sign * axis;
+        item.direction = -out;
         item.part = found->part;
         item.other = found->other;
         item.depth = found->excess();

@@ -1,11 +1,12 @@
 #include "dismantle/preparation/components.h"
 
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <map>
 #include <set>
+
+#include "dismantle/preparation/name_pattern.h"
 
 namespace dismantle {
 namespace {
@@ -80,7 +81,7 @@ class Reading {
     };
     const auto asked = [&](const std::vector<std::string>& patterns) -> const std::string* {
       const auto found = std::ranges::find_if(
-          patterns, [&](const auto& p) { return matches(use.instance, p) || matches(product, p); });
+          patterns, [&](const auto& p) { return name_matches(use.instance, p) || name_matches(product, p); });
       return found == patterns.end() ? nullptr : &*found;
     };
     if (const std::string* pattern = asked(choice_.apart))
@@ -130,10 +131,6 @@ class Reading {
 };
 
 }  // namespace
-
-bool matches(const std::string& name, const std::string& pattern) {
-  return name == pattern || ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
-}
 
 std::vector<std::string> product_names(const Assembly& assembly) {
   std::set<std::string> names;

@@ -1,5 +1,6 @@
 // Which bodies of a product tree form a unit: on trees with known answers, and on random ones.
 #include "dismantle/preparation/components.h"
+#include "dismantle/preparation/name_pattern.h"
 
 #include <gtest/gtest.h>
 
@@ -88,9 +89,9 @@ TEST(Components, TheReasonSaysWhenTheReadingIsDoubtful) {
 }
 
 TEST(Components, ANameIsItsOwnPattern) {
-  EXPECT_TRUE(matches("plate [M3] *", "plate [M3] *"));
-  EXPECT_TRUE(matches("SKF_6002-2Z", "SKF_6002*"));
-  EXPECT_FALSE(matches("nut", "n?"));
+  EXPECT_TRUE(name_matches("plate [M3] *", "plate [M3] *"));
+  EXPECT_TRUE(name_matches("SKF_6002-2Z", "SKF_6002*"));
+  EXPECT_FALSE(name_matches("nut", "n?"));
 }
 
 TEST(Components, UnitsShareNoPartAndNamesAreUnique) {

@@ -23,22 +23,33 @@ Pile held(Pile pile, const Group& bodies) {
   return pile;
 }
 
-/// Everything outside of `group` is held, and still it does not stand.
-bool must_be_hit(const Pile& pile, const Group& group, const Stop& stop) {
+/// The verdict of `group` when everything outside of it is held.
+Verdict verdict_alone(const Pile& pile, const Group& group, const Stop& stop) {
   Pile alone = pile;
   for (std::uint32_t i = 0; i < alone.bodies.size(); ++i)
     if (!contains(group, i)) alone.bodies[i].fixed = true;
-  return judge(alone, stop).verdict != Verdict::stands;
+  return judge(alone, stop).verdict;
 }
 
-/// A group of which no part can be left out; halves are tried before single bodies.
+/// Everything outside of `group` is held, and still it does not stand.
+bool must_be_hit(const Pile& pile, const Group& group, const Stop& stop) {
+  return verdict_alone(pile, group, stop) != Verdict::stands;
+}
+
+/// A group of which no part can be left out; halves are tried before single bodies. What falls stays so: only falling
+/// is proved.
 Group smallest(const Pile& pile, Group group, const Stop& stop) {
+  const bool falls = verdict_alone(pile, group, stop) == Verdict::falls;
+  const auto will_do = [&](const Group& less) {
+    const Verdict verdict = verdict_alone(pile, less, stop);
+    return verdict == Verdict::falls || (!falls && verdict != Verdict::stands);
+  };
   for (std::size_t size = group.size() / 2; size > 0; size /= 2)
     for (std::size_t first = 0; first < group.size() && group.size() > 1;) {
       Group without = group;
       const auto begin = without.begin() + static_cast<std::ptrdiff_t>(first);
       without.erase(begin, begin + static_cast<std::ptrdiff_t>(std::min(size, group.size() - first)));
-      if (!without.empty() && must_be_hit(pile, without, stop))
+      if (!without.empty() && will_do(without))
         group = std::move(without);
       else
         first += size;
@@ -104,6 +115,10 @@ std::vector<Group> moving_groups(const Pile& pile, const Motions& motion) {
 Holds least_holds(const Pile& pile, const Stop& stop) {
   Holds result;
   bool exact = true;
+  const auto add = [&](Group group) {
+    result.groups.push_back(smallest(pile, std::move(group), stop));
+    exact = exact && verdict_alone(pile, result.groups.back(), stop) == Verdict::falls;
+  };
   for (int round = 0; round < kRounds && !(stop && stop()); ++round) {
     result.held = minimum_hitting_set(result.groups);
     const Judgement found = judge(held(pile, result.held), stop);
@@ -115,7 +130,7 @@ Holds least_holds(const Pile& pile, const Stop& stop) {
     bool more = false;
     for (Group& g : moving_groups(held(pile, result.held), found.motion))
       if (must_be_hit(pile, g, stop)) {
-        result.groups.push_back(smallest(pile, std::move(g), stop));
+        add(std::move(g));
         more = true;
       }
     if (more) continue;
@@ -124,8 +139,7 @@ Holds least_holds(const Pile& pile, const Stop& stop) {
     for (std::uint32_t i = 0; i < pile.bodies.size(); ++i)
       if (!pile.bodies[i].fixed && !contains(result.held, i)) free.push_back(i);
     if (free.empty()) return result;
-    result.groups.push_back(smallest(pile, std::move(free), stop));
-    exact = exact && found.verdict != Verdict::uncertain;
+    add(std::move(free));
   }
   return result;
 }

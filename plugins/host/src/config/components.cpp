@@ -8,6 +8,7 @@
 #include "config/yaml_writer.h"
 #include "dismantle/host/config_bind.h"
 #include "dismantle/host/suggest.h"
+#include "dismantle/preparation/name_pattern.h"
 
 namespace dismantle {
 namespace {
@@ -81,7 +82,7 @@ void check_component_names(const RunConfig& config, const std::vector<std::strin
                            const std::string& input) {
   std::vector<Diagnostic> problems;
   for (const auto& [key, pattern, place] : config.component_names) {
-    if (std::ranges::any_of(products, [&](const std::string& p) { return matches(p, pattern); })) continue;
+    if (std::ranges::any_of(products, [&](const std::string& p) { return name_matches(p, pattern); })) continue;
     problems.push_back(place);
     std::string& message = problems.back().message;
     message = fmt::format("components.{}: {} has no product '{}'", key, input, pattern);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <charconv>
@@ -10,6 +9,7 @@
 
 #include "dismantle/fasteners/recognise.h"
 #include "dismantle/host/suggest.h"
+#include "dismantle/preparation/name_pattern.h"
 
 namespace dismantle {
 namespace {
@@ -50,7 +50,7 @@ void read_key(const ConfigMember& member, StatedPart& part, std::vector<Diagnost
 }
 
 bool matches(const StatedPart& stated, const std::string& name) {
-  return stated.pattern == name || fnmatch(stated.pattern.c_str(), name.c_str(), 0) == 0;
+  return name_matches(name, stated.pattern);
 }
 
 PartKind stated_kind(const StatedPart& stated, const std::optional<PartKind>& before) {

@@ -37,7 +37,5 @@ DISMANTLE_API std::vector<Component> components_of(const Assembly& assembly, con
 
 /// Names that patterns can match, each once.
 DISMANTLE_API std::vector<std::string> product_names(const Assembly& assembly);
-/// As fnmatch(3).
-DISMANTLE_API bool matches(const std::string& name, const std::string& pattern);
 
 }  // namespace dismantle

@@ -12,7 +12,7 @@ namespace dismantle::statics {
 /// Result of least_holds().
 struct Holds {
   bool found = false;                                ///< with `held` fixed the pile stands
-  bool proved = false;                               ///< no fewer do
+  bool proved = false;                               ///< no fewer do: each of the groups falls, with a certificate
   std::vector<std::uint32_t> held{};                 ///< ascending
   std::vector<std::vector<std::uint32_t>> groups{};  ///< one of each must be held; no smaller set meets all of them
 };
