@@ -69,18 +69,19 @@ TEST_F(Ldraw, PartsHaveTheirPlaceSizeAndColour) {
 
 /// Mirrored placements, INVERTNEXT and clockwise files: the outside stays outside.
 TEST_F(Ldraw, TheOutsideStaysOutside) {
-  write("library/parts/clockwise.dat", "0 Clockwise\n0 !LDRAW_ORG Part\n0 BFC CERTIFY CW\n" + [] {
-    std::string text = box(20, 24, 10);  // mirrored in x: counter-clockwise becomes clockwise
-    return text;
-  }());
+  write("library/parts/clockwise.dat", "0 Clockwise\n0 !LDRAW_ORG Part\n0 BFC CERTIFY CW\n" + box(20, 24, 10));
   write("library/parts/inner.dat", "0 Inner\n0 !LDRAW_ORG Part\n0 BFC CERTIFY CCW\n0 BFC INVERTNEXT\n"
                                    "1 16 0 0 0 1 0 0 0 1 0 0 0 1 brick.dat\n");
+  write("library/parts/half.dat", "0 Half\n0 !LDRAW_ORG Part\n0 BFC CERTIFY CCW\n"
+                                  "1 16 0 0 0 -1 0 0 0 1 0 0 0 1 brick.dat\n");
   const double volume = 8 * 4 * 9.6;
   for (const auto& [line, sign] : {std::pair("1 1 0 0 0 -1 0 0 0 1 0 0 0 1 brick.dat", 1),
                                    std::pair("1 1 0 0 0 -1 0 0 0 -1 0 0 0 1 brick.dat", 1),
                                    std::pair("1 1 0 0 0 1 0 0 0 1 0 0 0 1 inner.dat", -1),
                                    std::pair("1 1 0 0 0 -1 0 0 0 1 0 0 0 1 inner.dat", -1),
-                                   std::pair("1 1 0 0 0 1 0 0 0 1 0 0 0 1 clockwise.dat", -1)})
+                                   std::pair("1 1 0 0 0 1 0 0 0 1 0 0 0 1 half.dat", 1),
+                                   std::pair("1 1 0 0 0 1 0 0 0 1 0 0 0 -1 half.dat", 1),
+                                   std::pair("1 1 0 0 0 1 0 0 0 1 0 0 0 1 clockwise.dat", -1)})  // its box is wound the other way
     EXPECT_NEAR(signed_volume(read("0 One\n" + std::string(line) + "\n")[0].mesh), sign * volume, 1e-9) << line;
   const Aabb mirrored = read("0 One\n1 1 0 0 0 -1 0 0 0 1 0 0 0 1 brick.dat\n")[0].mesh.box();
   EXPECT_NEAR(mirrored.lo.x(), -8, 1e-9);
