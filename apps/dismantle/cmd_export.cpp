@@ -44,6 +44,8 @@ constexpr std::array kExportFormats{
                  [](const Plan& p, const InputFrame&) { return and_or_json(p); }, nullptr},
     ExportFormat{"and-or-dot", "and_or.dot", "the same for Graphviz", false,
                  [](const Plan& p, const InputFrame&) { return and_or_dot(p); }, nullptr},
+    ExportFormat{"bom-csv", "bom.csv", "bill of materials, a row each", false, nullptr, bom_csv},
+    ExportFormat{"steps-csv", "steps.csv", "steps of the assembly, a row each", false, steps_csv, nullptr},
     ExportFormat{"markdown", "steps.md", "table of the steps", false, steps_markdown, nullptr},
 };
 
@@ -111,7 +113,7 @@ void add_export(CLI::App& app, Action& action) {
   add_frame(*command, options->frame);
   add_verbosity(*command, options->console);
   command->footer(table +
-                  "Poses and glTF need the input of the plan; all else is made from the plan alone.\n"
+                  "Poses, glTF and the bill of materials need the input of the plan; all else is made from the plan alone.\n"
                   "Examples:\n"
                   "  dismantle export out/plan.json --format poses-csv\n"
                   "  dismantle export out/plan.json --format and-or-dot -o - | dot -Tsvg > and_or.svg");

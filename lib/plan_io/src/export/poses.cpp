@@ -7,22 +7,13 @@
 
 #include "dismantle/plan_io/exports.h"
 #include "dismantle/plan_io/verdicts.h"
-#include "export/dot_text.h"
+#include "export/csv_text.h"
 #include "json/json_text.h"
 #include "json/verdicts_json.h"
 #include "steps/timeline.h"
 
 namespace dismantle {
 namespace {
-
-/// Quoted where RFC 4180 requires it.
-std::string csv_field(const std::string& raw) {
-  const std::string text = utf8_text(raw);
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + '"';
-}
 
 /// Rounds to microseconds; smaller digits are noise of the computation.
 double shown_time(float seconds) { return std::round(1e6 * static_cast<double>(seconds)) / 1e6; }

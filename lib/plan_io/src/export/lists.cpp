@@ -1,0 +1,160 @@
+// The bill of materials and the steps of the assembly as CSV.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "dismantle/errors.h"
+#include "dismantle/geometry/congruent_parts.h"
+#include "dismantle/plan_io/exports.h"
+#include "dismantle/plan_io/motion_words.h"
+#include "dismantle/plan_io/text_columns.h"
+#include "dismantle/plan_io/verdicts.h"
+#include "export/csv_text.h"
+
+namespace dismantle {
+namespace {
+
+struct Item {
+  std::string name;
+  PartKind kind{};
+  Aabb box{};  // input units
+  std::vector<std::string> parts{};
+  std::size_t count = 0;
+};
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ";") + name;
+  return out;
+}
+
+class Items {
+ public:
+  Items(const Plan& plan, const Assembly& assembly) : plan_(plan), assembly_(assembly) {
+    for (const Part& part : assembly.parts) ids_.emplace(part.name, part.id);
+  }
+
+  std::vector<Item> all() {
+    std::vector<bool> done(assembly_.parts.size());
+    for (const PlanComponent& component : plan_.assembly.components)
+      if (component.kept) add_component(component, done);
+    add_shapes(done);
+    return std::move(items_);
+  }
+
+ private:
+  PartId id_of(const std::string& name) const {
+    const auto known = ids_.find(name);
+    if (known == ids_.end())
+      throw InputError(plan_.assembly.source, fmt::format("the plan has a part '{}', which the assembly does not have", name));
+    return known->second;
+  }
+
+  Aabb input_box(PartId id) const {
+    Aabb box;
+    const Aabb own = assembly_.parts[id].mesh->box();
+    box.extend(assembly_.normalization.to_input(own.lo));
+    box.extend(assembly_.normalization.to_input(own.hi));
+    return box;
+  }
+
+  void add_component(const PlanComponent& component, std::vector<bool>& done) {
+    const auto [it, fresh] = item_of_product_.try_emplace(component.product, items_.size());
+    if (fresh) {
+      Item& item = items_.emplace_back();
+      item.name = component.product;
+      for (const std::string& part : component.parts) item.box.extend(input_box(id_of(part)));
+    }
+    Item& item = items_[it->second];
+    ++item.count;
+    item.parts.push_back(component.name);
+    for (const std::string& part : component.parts) done[id_of(part)] = true;
+  }
+
+  void add_shapes(const std::vector<bool>& done) {
+    std::map<std::size_t, std::size_t> item_of_shape;
+    const auto shapes = geometry::find_congruent(assembly_.parts);
+    for (const PlanPart& part : plan_.assembly.parts) {
+      const PartId id = id_of(part.name);
+      if (done[id]) continue;
+      const auto [it, fresh] = item_of_shape.try_emplace(shapes[id].original, items_.size());
+      if (fresh) items_.push_back({part.product.empty() ? part.name : part.product, part.kind.value_or(PartKind{}), input_box(id)});
+      Item& item = items_[it->second];
+      ++item.count;
+      item.parts.push_back(part.name);
+    }
+  }
+
+  const Plan& plan_;
+  const Assembly& assembly_;
+  std::map<std::string, PartId> ids_;
+  std::map<std::string, std::size_t> item_of_product_;
+  std::vector<Item> items_;
+};
+
+/// Numbers of the assembly steps that have to come before: those whose disassembly step waits for this one.
+std::string waits_for(const Plan& plan, std::size_t index) {
+  std::string out;
+  const std::size_t steps = plan.disassembly.size();
+  const unsigned own = plan.disassembly[index].step;
+  for (std::size_t k = steps; k-- > 0;) {
+    const PlanStep& step = plan.disassembly[k];
+    if (step.layer == 0) return "unknown";
+    if (std::ranges::find(step.after, own) != step.after.end())
+      out += fmt::format("{}{}", out.empty() ? "" : ";", steps - k);
+  }
+  return plan.disassembly[index].layer == 0 ? "unknown" : out;
+}
+
+}  // namespace
+
+std::string bom_csv(const Plan& plan, const Assembly& assembly, const InputFrame& frame) {
+  const TextUnit unit = frame.unit_known ? text_unit(frame.unit, plan.assembly.box) : TextUnit{"", 1};
+  std::string out = "item,count,name,kind,size,length_x,length_y,length_z,unit,parts\n";
+  std::size_t number = 0;
+  for (const Item& item : Items(plan, assembly).all()) {
+    const Eigen::Vector3d size = unit.factor * item.box.size();
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", ++number, item.count, csv_field(item.name), csv_field(item.kind.kind),
+                       csv_field(item.kind.size), figure_text(size.x()), figure_text(size.y()), figure_text(size.z()),
+                       unit.name, csv_field(listed(item.parts)));
+  }
+  return out;
+}
+
+std::string steps_csv(const Plan& plan, const InputFrame& frame) {
+  const PlanAssembly& a = plan.assembly;
+  const TextUnit unit = frame.unit_known ? text_unit(frame.unit, a.box) : TextUnit{"", 1};
+  const double size = a.box.empty() ? 1 : std::max(a.box.size().maxCoeff(), 1e-300);
+  const Eigen::Vector3d middle = a.box.empty() ? a.center : a.box.center();
+  std::string out = "step,parts,motion,x,y,z,travel,turn_degrees,unit,waits_for,forced_depth,notes\n";
+  for (std::size_t k = plan.disassembly.size(); k-- > 0;) {
+    const PlanStep& step = plan.disassembly[k];
+    std::vector<std::string> parts, notes;
+    for (const PlanMove& move : step.moves) parts.push_back(move.part);
+    for (const PlanVerdict& verdict : step.checks)
+      for (const StepNote& note : verdict.notes) notes.push_back(note.text);
+    std::string motion, direction = ",,", travel, turn;
+    if (!step.moves.empty()) {
+      std::vector<Pose> poses = step.moves.front().poses;
+      std::reverse(poses.begin(), poses.end());
+      const MotionSummary summary =
+          in_unit(summarize_motion(poses, point_on_axis(poses, middle), leg_tolerance(size)), unit.factor);
+      motion = motion_words(summary, unit.name, frame.y_up);
+      if (!summary.legs.empty()) {
+        const Eigen::Vector3d last = summary.legs.back().normalized();
+        direction = fmt::format("{:.6f},{:.6f},{:.6f}", last.x() + 0.0, last.y() + 0.0, last.z() + 0.0);
+      }
+      travel = figure_text(summary.length);
+      turn = figure_text(summary.turn * 180 / std::numbers::pi);
+    }
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", plan.disassembly.size() - k, csv_field(listed(parts)),
+                       csv_field(motion), direction, travel, turn, unit.name, waits_for(plan, k),
+                       step.forced ? figure_text(unit.factor * step.forced->depth) : "", csv_field(listed(notes)));
+  }
+  return out;
+}
+
+}  // namespace dismantle
