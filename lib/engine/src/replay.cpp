@@ -11,6 +11,13 @@
 
 namespace dismantle {
 
+StepRefused::StepRefused(std::string subject, std::size_t step, std::string reason)
+    : InputError(std::move(subject), fmt::format("step {} of the plan to go on from is not valid here: {}", step + 1, reason)),
+      step_(step),
+      reason_(std::move(reason)) {}
+
+StepRefused::~StepRefused() = default;
+
 namespace {
 
 /// Passes a removal on with the planner and the reason that the earlier step states.
@@ -32,17 +39,20 @@ void replay(const Disassembly& earlier, const Assembly& assembly, Oracle& oracle
     const DisassemblyStep& step = earlier.steps()[k];
     const Disassembly& now = recorder.disassembly();
     const std::optional<std::size_t> group = now.common_group(step.parts);
-    if (!group) throw InputError(assembly.source, fmt::format("step {} moves parts that are not together", k + 1));
+    if (!group) throw StepRefused(assembly.source, k, "it moves parts that are not together");
     Attempt question{now.placed(step.parts), now.placed(without(now.groups()[*group], step.parts))};
     question.goal.placement = step.placement;
     if (step.released) question.goal.any_of = {*step.released};
     const AttemptResult& answer = ask_again(step, question, oracle, assembly, k + 1, context);
     if (!answer.removes()) {
       if (context.should_stop()) return;
-      throw InputError(assembly.source, fmt::format("step {} of the plan to go on from is not valid here: {}", k + 1,
-                                                    answer.result.message));
+      throw StepRefused(assembly.source, k, answer.result.message);
     }
-    recorder.repeated({step.parts, &answer, "", step.up}, step);
+    try {
+      recorder.repeated({step.parts, &answer, "", step.up}, step);
+    } catch (const std::logic_error& e) {  // of a constraint
+      throw StepRefused(assembly.source, k, e.what());
+    }
   }
 }
 

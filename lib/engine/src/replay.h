@@ -7,7 +7,7 @@
 
 namespace dismantle {
 
-/// Proposes each step to the oracle and records the answer. @throws InputError for a step that is not valid. Ends early
+/// Proposes each step to the oracle and records the answer. @throws StepRefused for a step that is not valid. Ends early
 /// when `context` asks to stop.
 void replay(const Disassembly& earlier, const Assembly& assembly, Oracle& oracle, Recorder& recorder,
             RunContext& context);

@@ -45,16 +45,6 @@ void append(const std::vector<Group>& groups, std::size_t index, OrderStep put_i
     append(groups, taken->second, step_of(plan.disassembly[taken->first], plan.assembly), plan, out);
 }
 
-Eigen::Vector3d direction_in(const std::string& text, const std::string& where) {
-  if (text.size() == 2 && (text[0] == '+' || text[0] == '-') && text[1] >= 'x' && text[1] <= 'z')
-    return Eigen::Vector3d::Unit(text[1] - 'x') * (text[0] == '+' ? 1 : -1);
-  std::istringstream words(text);
-  Eigen::Vector3d v;
-  if (!(words >> v.x() >> v.y() >> v.z()) || !(v.norm() > 0) || !v.allFinite())
-    throw InputError(where, fmt::format("'{}' is no direction: +x, -z, or three numbers with blanks between", text));
-  return v.normalized();
-}
-
 /// The fields of a line; quoted ones may hold commas and doubled quotes.
 std::vector<std::string> fields_of(const std::string& line) {
   std::vector<std::string> fields(1);
@@ -116,6 +106,15 @@ Order order_of(const std::vector<PlanReferenceStep>& reference) {
   return order;
 }
 
+std::optional<Eigen::Vector3d> direction_named(const std::string& text) {
+  if (text.size() == 2 && (text[0] == '+' || text[0] == '-') && text[1] >= 'x' && text[1] <= 'z')
+    return Eigen::Vector3d::Unit(text[1] - 'x') * (text[0] == '+' ? 1 : -1);
+  std::istringstream words(text);
+  Eigen::Vector3d v;
+  if (!(words >> v.x() >> v.y() >> v.z()) || !(words >> std::ws).eof() || !(v.norm() > 0) || !v.allFinite()) return {};
+  return v.normalized();
+}
+
 Order read_order(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in) throw InputError(file.string(), "cannot be opened");
@@ -148,8 +147,10 @@ Order read_order(const std::filesystem::path& file) {
     if (part.empty() || !seen.insert(part).second)
       throw InputError(where, part.empty() ? "no part is named" : fmt::format("part '{}' is there twice", part));
     steps[step].parts.push_back(part);
-    if (const std::string direction = field("direction"); !direction.empty())
-      steps[step].direction = direction_in(direction, where);
+    if (const std::string direction = field("direction"); !direction.empty()) {
+      steps[step].direction = direction_named(direction);
+      if (!steps[step].direction) throw InputError(where, fmt::format("'{}' is no direction: {}", direction, kDirections));
+    }
   }
   if (steps.empty()) throw InputError(file.string(), "it holds no step");
   Order order;

@@ -12,6 +12,7 @@
 #include "dismantle/assembly.h"
 #include "dismantle/engine/layout.h"
 #include "dismantle/engine/proof_options.h"
+#include "dismantle/errors.h"
 #include "dismantle/export.h"
 #include "dismantle/immobility_prover.h"
 #include "dismantle/path_oracle.h"
@@ -68,6 +69,20 @@ struct RunOptions {
   std::vector<FlexiblePart> flexible{};  ///< flexible parts, for the plan to state
 };
 
+/// A step to go on from that is not valid.
+class DISMANTLE_API StepRefused : public InputError {
+ public:
+  /// `step`: from 0. `subject`: the input.
+  StepRefused(std::string subject, std::size_t step, std::string reason);
+  ~StepRefused() override;
+  std::size_t step() const { return step_; }
+  const std::string& reason() const { return reason_; }
+
+ private:
+  std::size_t step_;
+  std::string reason_;
+};
+
 /// Called after each step, with the steps so far and the newest of them. It may be the continuation of the step before,
 /// which it then replaces.
 using StepObserver = std::function<void(const Disassembly& so_far, const DisassemblyStep& newest)>;
@@ -88,7 +103,7 @@ struct RunResult {
 };
 
 /// Runs to the end, the deadline or cancellation; in each case the result holds every finished step. `on_step` may be
-/// empty. @throws std::invalid_argument for a setup that cannot do what the options ask for. @throws InputError for a step
+/// empty. @throws std::invalid_argument for a setup that cannot do what the options ask for. @throws StepRefused for a step
 /// of `resume` that is not valid.
 DISMANTLE_API RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOptions& options,
                             RunContext& context, const StepObserver& on_step = {});

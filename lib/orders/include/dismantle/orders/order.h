@@ -33,6 +33,11 @@ DISMANTLE_API Order order_of(const std::vector<PlanReferenceStep>& reference);
 /// Rows of one step number are one step. @throws InputError naming file and line.
 DISMANTLE_API Order read_order(const std::filesystem::path& file);
 
+/// How directions are written.
+inline constexpr const char* kDirections = "+x, -z, or three numbers with blanks between";
+/// The unit vector; none if the text is no direction.
+DISMANTLE_API std::optional<Eigen::Vector3d> direction_named(const std::string& text);
+
 /// Names of equal parts are mapped to one class; a part that is missing here is a class by itself.
 using PartClasses = std::map<std::string, std::string>;
 /// Parts of one product are equal.

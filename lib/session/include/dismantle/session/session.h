@@ -62,6 +62,8 @@ struct PlanRequest {
   /// A plan for the same input to go on from; null: none. Its first `resume_steps` steps are verified again and kept.
   const Plan* resume = nullptr;
   std::size_t resume_steps = Disassembly::kNow;
+  /// The same, as steps of the assembly, such as edited() gives; null: none. Not together with `resume`.
+  const Disassembly* steps = nullptr;
 };
 
 /// A plan file together with its assembly.
@@ -109,7 +111,8 @@ class DISMANTLE_API Session {
   InputParts read(const std::filesystem::path& input, const RunContext& context) const;
 
   /// Takes the assembly apart, until the end, the time limit or the request to stop: the result holds every finished
-  /// step. @throws Error when the assembly was prepared with other settings; InputError for unknown parts; as check().
+  /// step. @throws Error when the assembly was prepared with other settings; InputError for unknown parts;
+  /// StepRefused for a step to go on from; as check().
   RunResult plan(const LoadedAssembly& assembly, const std::optional<RunContext>& context = {},
                  const PlanRequest& request = {}) const;
   /// The plan that states these steps and nothing else: what can be saved before plan() returns. Throws as plan().
