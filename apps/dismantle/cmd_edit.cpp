@@ -40,7 +40,8 @@ class StepNumbers {
   std::size_t steps() const { return plan_.disassembly.size(); }
   /// Index in Plan::disassembly. @throws Error for a number that no step has.
   std::size_t index(std::size_t number) const {
-    if (number < 1 || number > steps()) throw Error(fmt::format("there is no step {}: the plan has {}", number, steps()));
+    if (number < 1 || number > steps())
+      throw Error(fmt::format("there is no step {}: the plan has {}", number, steps()));
     return disassembly_ ? number - 1 : steps() - number;
   }
   std::size_t number(std::size_t index) const { return disassembly_ ? index + 1 : steps() - index; }
@@ -71,7 +72,8 @@ std::vector<std::size_t> listed(const std::string& text, const StepNumbers& step
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     order.push_back(steps.index(number_in(text.substr(begin, end - begin), "--order")));
-    if (!seen.insert(order.back()).second) throw Error(fmt::format("--order: step {} is there twice", steps.number(order.back())));
+    if (!seen.insert(order.back()).second)
+      throw Error(fmt::format("--order: step {} is there twice", steps.number(order.back())));
     begin = end + 1;
   }
   for (std::size_t k = 0; k < steps.steps(); ++k)
@@ -92,8 +94,8 @@ std::vector<std::size_t> order_of_file(const std::string& file, const Plan& plan
   for (std::size_t k = 0; k < steps; ++k) {
     const PlanStep& step = plan.disassembly[k];
     if (step.separates.empty())
-      throw Error(fmt::format("step {} of the disassembly moves parts that stay: name the steps by number (--order 3,1,2)",
-                              step.step));
+      throw Error(fmt::format(
+          "step {} of the disassembly moves parts that stay: name the steps by number (--order 3,1,2)", step.step));
     std::optional<std::size_t> found;
     for (const std::string& part : step.separates.front()) {
       const auto known = rank.find(part);
@@ -135,7 +137,8 @@ PlanEdit edit_of(const EditOptions& options, const Plan& plan) {
     if (equals == std::string::npos) throw Error(fmt::format("--direction: '{}' is not N=DIRECTION", text));
     const std::size_t step = steps.index(number_in(text.substr(0, equals), "--direction"));
     const auto direction = direction_named(text.substr(equals + 1));
-    if (!direction) throw Error(fmt::format("--direction: '{}' is no direction: {}", text.substr(equals + 1), kDirections));
+    if (!direction)
+      throw Error(fmt::format("--direction: '{}' is no direction: {}", text.substr(equals + 1), kDirections));
     edit.directions[step] = options.disassembly ? *direction : Eigen::Vector3d(-*direction);
   }
   return edit;
@@ -152,11 +155,9 @@ ConfigSource settings_of(const EditOptions& options) {
 
 int refused(const StepRefused& e, const PlanEdit& edit, const StepNumbers& steps, Console& console) {
   const std::size_t index = edit.order[e.step()];
-  console.text(fmt::format("refused: {} of the plan is not possible there: {}\nnothing was written\n", steps.name(index), e.reason()));
-  console.result({{"status", "refused"},
-                  {"step", steps.number(index)},
-                  {"message", e.reason()},
-                  {"plan", nullptr}});
+  console.text(fmt::format("refused: {} of the plan is not possible there: {}\nnothing was written\n",
+                           steps.name(index), e.reason()));
+  console.result({{"status", "refused"}, {"step", steps.number(index)}, {"message", e.reason()}, {"plan", nullptr}});
   return kPartial;
 }
 
@@ -206,11 +207,15 @@ int edit_plan(const EditOptions& options) {
 void add_edit(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("edit", "Put the steps of a plan in another order, verified");
   auto options = std::make_shared<EditOptions>();
-  command->add_option("PLAN.json", options->plan, "Plan written by 'dismantle plan' or 'dismantle edit'")->required()->option_text(" ");
+  command->add_option("PLAN.json", options->plan, "Plan written by 'dismantle plan' or 'dismantle edit'")
+      ->required()
+      ->option_text(" ");
   command->add_option("-o,--output", options->folder, "Folder for the edited plan; not that of PLAN.json")
       ->required()
       ->option_text("DIR");
-  command->add_option("--order", options->order, "All steps in their new order, or a CSV file with the columns step and part")
+  command
+      ->add_option("--order", options->order,
+                   "All steps in their new order, or a CSV file with the columns step and part")
       ->option_text("N,N,...|ORDER.csv");
   command->add_option("--move-step", options->move, "Move this step, with --before or --after")
       ->option_text("N")
@@ -227,8 +232,9 @@ void add_edit(CLI::App& app, Action& action) {
       ->option_text("N=DIRECTION")
       ->type_size(1)
       ->allow_extra_args(false);
-  command->add_flag("--disassembly", options->disassembly,
-                    "Numbers, --before and directions are those of the disassembly: parts leave in that direction")
+  command
+      ->add_flag("--disassembly", options->disassembly,
+                 "Numbers, --before and directions are those of the disassembly: parts leave in that direction")
       ->option_text(" ");
   command->add_option("--assembly", options->input, "Input of the plan if it has moved")->option_text("INPUT");
   options->config.add_file_and_set(*command);
@@ -237,7 +243,8 @@ void add_edit(CLI::App& app, Action& action) {
   add_verbosity(*command, options->console);
   command->footer(
       "Numbers are those of the assembly steps, as in the page and the book. Each step is verified again in its new\n"
-      "place; what has to come first, the layout and the verdicts of the objective are found anew. Parts that the plan\n"
+      "place; what has to come first, the layout and the verdicts of the objective are found anew. Parts that the "
+      "plan\n"
       "leaves together are tried again. Settings: resolved.yaml beside the plan, or -c.\n"
       "Exit status: 0 the edited plan does what was asked for; 1 not so, or a step is refused: it is named, and\n"
       "nothing is written.\n"

@@ -20,8 +20,10 @@ std::vector<std::string> fields_of(const std::string& line) {
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (line[i] == '"') {
-      if (quoted && i + 1 < line.size() && line[i + 1] == '"') out.back() += line[i++];
-      else quoted = !quoted;
+      if (quoted && i + 1 < line.size() && line[i + 1] == '"')
+        out.back() += line[i++];
+      else
+        quoted = !quoted;
     } else if (line[i] == ',' && !quoted) {
       out.emplace_back();
     } else {
@@ -34,8 +36,10 @@ std::vector<std::string> fields_of(const std::string& line) {
 std::vector<std::string> names_in(const std::string& cell) {
   std::vector<std::string> out(1);
   for (const char c : cell)
-    if (c == ';') out.emplace_back();
-    else out.back() += c;
+    if (c == ';')
+      out.emplace_back();
+    else
+      out.back() += c;
   return out;
 }
 
@@ -70,7 +74,8 @@ TEST(Lists, TheBillOfMaterialsHasEveryUnitOnce) {
   };
   EXPECT_EQ(listed(rows_of(bom_csv(plan, assembly, input_frame(plan.assembly)))), expected);
   const std::string one = plan.assembly.parts[0].name, two = plan.assembly.parts[1].name;
-  plan.assembly.components = {{"motor 1", "motor", {one, two}, true, ""}, {"left open", "other", {plan.assembly.parts[2].name}, false, ""}};
+  plan.assembly.components = {{"motor 1", "motor", {one, two}, true, ""},
+                              {"left open", "other", {plan.assembly.parts[2].name}, false, ""}};
   expected.erase(expected.find(one));
   expected.erase(expected.find(two));
   expected.insert("motor 1");
@@ -98,7 +103,8 @@ TEST(Lists, StepsAreThoseOfTheAssembly) {
     // a waits for b in the assembly exactly if b waits for a in the disassembly
     std::set<std::string> waits;
     for (const PlanStep& other : plan.disassembly)
-      if (std::ranges::find(other.after, step.step) != other.after.end()) waits.insert(std::to_string(steps + 1 - other.step));
+      if (std::ranges::find(other.after, step.step) != other.after.end())
+        waits.insert(std::to_string(steps + 1 - other.step));
     std::set<std::string> stated;
     if (!row.at("waits_for").empty())
       for (const std::string& s : names_in(row.at("waits_for"))) stated.insert(s);

@@ -53,7 +53,8 @@ class Straight {
 
  private:
   /// Adds a translation after which the hulls are apart, if they are not yet.
-  void extend(Path& path, const std::vector<PartId>& moving, const std::vector<PlacedPart>& rest, const Eigen::Vector3d& out) {
+  void extend(Path& path, const std::vector<PartId>& moving, const std::vector<PlacedPart>& rest,
+              const Eigen::Vector3d& out) {
     std::vector<PlacedPart> at_end;
     for (std::size_t i = 0; i < moving.size(); ++i) at_end.push_back({moving[i], path.back()[i]});
     geometry::HullsApart hulls(hulls_of(at_end), hulls_of(rest));
@@ -114,7 +115,8 @@ Disassembly edited(const Plan& plan, const Assembly& assembly, const PlanEdit& e
     const std::vector<PlacedPart> rest = now.placed(without(now.groups()[*group], step.parts));
     const Pose then = before.pose(step.parts.front(), order[k]);
     if (const auto direction = edit.directions.find(order[k]); direction != edit.directions.end()) {
-      if (step.placement) throw StepRefused(assembly.source, k, "a direction is for parts that leave, and these stay in their group");
+      if (step.placement)
+        throw StepRefused(assembly.source, k, "a direction is for parts that leave, and these stay in their group");
       step.path = std::make_shared<const Path>(straight.path(moving, rest, direction->second));
       step.released.reset();
       step.forced.reset();

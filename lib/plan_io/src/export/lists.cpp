@@ -49,7 +49,8 @@ class Items {
   PartId id_of(const std::string& name) const {
     const auto known = ids_.find(name);
     if (known == ids_.end())
-      throw InputError(plan_.assembly.source, fmt::format("the plan has a part '{}', which the assembly does not have", name));
+      throw InputError(plan_.assembly.source,
+                       fmt::format("the plan has a part '{}', which the assembly does not have", name));
     return known->second;
   }
 
@@ -81,7 +82,9 @@ class Items {
       const PartId id = id_of(part.name);
       if (done[id]) continue;
       const auto [it, fresh] = item_of_shape.try_emplace(shapes[id].original, items_.size());
-      if (fresh) items_.push_back({part.product.empty() ? part.name : part.product, part.kind.value_or(PartKind{}), input_box(id)});
+      if (fresh)
+        items_.push_back(
+            {part.product.empty() ? part.name : part.product, part.kind.value_or(PartKind{}), input_box(id)});
       Item& item = items_[it->second];
       ++item.count;
       item.parts.push_back(part.name);
@@ -117,9 +120,9 @@ std::string bom_csv(const Plan& plan, const Assembly& assembly, const InputFrame
   std::size_t number = 0;
   for (const Item& item : Items(plan, assembly).all()) {
     const Eigen::Vector3d size = unit.factor * item.box.size();
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", ++number, item.count, csv_field(item.name), csv_field(item.kind.kind),
-                       csv_field(item.kind.size), figure_text(size.x()), figure_text(size.y()), figure_text(size.z()),
-                       unit.name, csv_field(listed(item.parts)));
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", ++number, item.count, csv_field(item.name),
+                       csv_field(item.kind.kind), csv_field(item.kind.size), figure_text(size.x()),
+                       figure_text(size.y()), figure_text(size.z()), unit.name, csv_field(listed(item.parts)));
   }
   return out;
 }
