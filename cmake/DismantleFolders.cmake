@@ -7,7 +7,7 @@ set(DISMANTLE_SHIPPED_PLUGINS
   planners/path/bfs planners/path/bk_rrt planners/path/contact_search planners/path/mv_t_rrt
   planners/path/navigation_tree planners/path/portfolio planners/path/prm planners/path/rrt planners/path/rrt_connect_removal
   planners/path/t_rrt planners/path/tolerant_rrt planners/path/tunnel_forest
-  planners/sequence/blocking planners/sequence/chain planners/sequence/least_cut planners/sequence/mcts planners/sequence/ndbg planners/sequence/progressive planners/sequence/queue planners/sequence/random
+  planners/sequence/best_order planners/sequence/blocking planners/sequence/chain planners/sequence/least_cut planners/sequence/mcts planners/sequence/ndbg planners/sequence/progressive planners/sequence/queue planners/sequence/random
   planners/sequence/state_based
   planners/transfer/rrt_connect planners/checks/directions planners/checks/identical_parts planners/checks/path_length planners/checks/reorientations
   planners/immobility/configuration_cells planners/immobility/disc planners/immobility/enclosed_ball planners/immobility/hook
@@ -24,10 +24,25 @@ if(DISMANTLE_MISSING_PLUGINS)
   message(STATUS "Plugins left out: ${DISMANTLE_MISSING_PLUGINS}")
 endif()
 
-# The plugins of the default configuration (configs/default.yaml), and those that read the samples.
-set(DISMANTLE_DEFAULT_PLUGINS plugins/importers/mesh_files simulators/sdf_penalty
-  planners/path/portfolio planners/path/contact_search planners/path/navigation_tree planners/path/tolerant_rrt planners/path/tunnel_forest
-  planners/sequence/blocking planners/sequence/chain planners/sequence/least_cut planners/transfer/rrt_connect)
+# The plugins of the default configuration, and those that read the samples: what configs/default.yaml names as `type`, and what
+# its path planner `guided` is made of. (Plugins that are not there are left out of the defaults, so a list that lacks one would
+# change plans without an error.)
+set(DISMANTLE_DEFAULT_PLUGINS plugins/importers/mesh_files
+  planners/path/portfolio planners/path/contact_search planners/path/navigation_tree planners/path/tolerant_rrt planners/path/tunnel_forest)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/configs/default.yaml")
+file(STRINGS "${PROJECT_SOURCE_DIR}/configs/default.yaml" lines REGEX "^[^#]*type:")
+foreach(line IN LISTS lines)
+  string(REGEX REPLACE "#.*" "" line "${line}")
+  string(REGEX MATCHALL "type: *[a-z_]+" types "${line}")
+  foreach(type IN LISTS types)
+    string(REGEX REPLACE "type: *" "" id "${type}")
+    foreach(folder IN LISTS DISMANTLE_SHIPPED_PLUGINS)
+      if(folder MATCHES "/${id}$" AND NOT folder IN_LIST DISMANTLE_DEFAULT_PLUGINS)
+        list(APPEND DISMANTLE_DEFAULT_PLUGINS "${folder}")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
 
 # The immobility provers.
 set(DISMANTLE_PROVER_PLUGINS ${DISMANTLE_SHIPPED_PLUGINS})
