@@ -56,7 +56,8 @@ std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(
 
 Results::Results(const std::filesystem::path& file)
     : db_(file, Sqlite::Mode::write), host_(this_host()), cpu_(cpu_model()), owner_(this_owner()) {
-  db_.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;");
+  db_.write_ahead();
+  db_.run("PRAGMA synchronous = FULL");
   Transaction transaction(db_);
   db_.run(tables());
   check_version(db_);

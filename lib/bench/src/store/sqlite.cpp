@@ -33,6 +33,16 @@ void Sqlite::run(const std::string& sql) {
   if (sqlite3_exec(db_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail("the database refuses");
 }
 
+void Sqlite::write_ahead() {
+  constexpr int kWait = 10, kTries = 6000;  // ms; as long as the timeout above
+  for (int tries = 0;; ++tries) {
+    const int status = sqlite3_exec(db_, "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr);
+    if (status == SQLITE_OK) return;
+    if (status != SQLITE_BUSY || tries == kTries) fail("the database refuses");
+    sqlite3_sleep(kWait);
+  }
+}
+
 Statement Sqlite::prepare(const std::string& sql) { return Statement(*this, sql); }
 
 Statement::Statement(Sqlite& db, const std::string& sql) : db_(db) {

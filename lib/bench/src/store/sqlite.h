@@ -25,6 +25,9 @@ class Sqlite {
 
   /// One or several statements without results. @throws InputError.
   void run(const std::string& sql);
+  /// Writers then do not keep readers waiting. SQLite ignores its timeout when several processes change the journal of a new
+  /// database at once, so this waits by itself.
+  void write_ahead();
   Statement prepare(const std::string& sql);
   std::int64_t changes() const { return sqlite3_changes(db_); }
   std::int64_t last_id() const { return sqlite3_last_insert_rowid(db_); }
