@@ -18,6 +18,8 @@
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/plan_report.h"
+#include "dismantle/revision_report.h"
+#include "dismantle/session/revision.h"
 #include "dismantle/session/session.h"
 #include "dismantle/settings.h"
 #include "dismantle/stopped.h"
@@ -30,7 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PlanOptions {
-  std::string input, folder, part, resume;
+  std::string input, folder, part, resume, from;
   std::optional<std::size_t> after;
   bool isolate = false;
   std::int64_t memory = 0;  // MiB, for an isolated run
@@ -85,11 +87,11 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
 
   const fs::path folder = options.folder.empty() ? default_folder(options.input) : fs::path(options.folder);
   std::optional<Plan> earlier;
-  if (!options.resume.empty()) {
-    earlier = read_plan(options.resume);
+  if (const std::string& file = options.resume.empty() ? options.from : options.resume; !file.empty()) {
+    earlier = read_plan(file);
     std::error_code error;
-    if (fs::equivalent(fs::absolute(options.resume).parent_path(), folder, error))
-      throw Error(fmt::format("{} would be written over: name another folder with -o", options.resume));
+    if (fs::equivalent(fs::absolute(file).parent_path(), folder, error))
+      throw Error(fmt::format("{} would be written over: name another folder with -o", file));
   }
   if (!options.folder.empty()) open_output_folder(folder);
   remove_old_results(folder, options.input);
@@ -114,8 +116,18 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
     saver(so_far, newest);
     notes.plan.set(saved);
   };
-  const PlanRequest request{options.part, on_step, earlier ? &*earlier : nullptr,
-                            options.after.value_or(Disassembly::kNow)};
+  PlanRequest request{.part = options.part, .on_step = on_step};
+  if (!options.resume.empty()) {
+    request.resume = &*earlier;
+    request.resume_steps = options.after.value_or(Disassembly::kNow);
+  }
+  std::optional<KeptSteps> kept;
+  if (!options.from.empty()) {
+    kept = stoppable(context, [&] {
+      return kept_steps(*earlier, assembly, Verifier(assembly, config.verify, context), context);
+    });
+    request.steps = &kept->steps;
+  }
   const RunResult result = stoppable(context, [&] { return session.plan(loaded, context, request); });
   watchdog.reset();  // no plugin runs after this
   const auto files = write_all(result, assembly, folder, console);
@@ -123,6 +135,7 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
 
   const int status = status_of(result, context);
   std::string text = summary_text(result.plan) + effort_text(result, options.console.verbose);
+  if (kept) text += kept_text(*kept, options.from);
   if (const auto names = unusable_parts(result.plan); !names.empty())
     text +=
         fmt::format("{} of {} parts could not be used and {} not in the plan (see 'left out'): exit status 1\n",
@@ -133,7 +146,9 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
   text += fmt::format("wrote to {}:", folder.string());
   for (const auto& file : files) text += " " + file;
   console.text(text + "\n");
-  console.result(result_json(result, status, folder / "plan.json"));
+  nlohmann::ordered_json json = result_json(result, status, folder / "plan.json");
+  if (kept) json["revised"] = revised_json(*kept);
+  console.result(std::move(json));
   return status;
 }
 
@@ -170,6 +185,11 @@ void add_plan(CLI::App& app, Action& action) {
       ->option_text("K")
       ->check(CLI::NonNegativeNumber.description(""))
       ->needs(resume);
+  command
+      ->add_option("--from", options->from,
+                   "Keep the steps of this plan of an earlier revision that still verify, and plan the rest")
+      ->option_text("OLD.json")
+      ->excludes(resume);
   command->add_option("--part", options->part, "Plan just this part's path, all other parts fixed")
       ->option_text("NAME");
   options->config

@@ -25,6 +25,7 @@ void add_prepare(CLI::App& app, Action& action);
 void add_verify(CLI::App& app, Action& action);
 void add_explain(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
+void add_diff(CLI::App& app, Action& action);
 void add_edit(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_view(CLI::App& app, Action& action);

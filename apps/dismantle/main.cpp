@@ -181,6 +181,7 @@ int main(int argc, char** argv) {
   add_explain(app, action);
   add_replay(app, action);
   add_compare(app, action);
+  add_diff(app, action);
   add_edit(app, action);
   add_view(app, action);
   add_export(app, action);

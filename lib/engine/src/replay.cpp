@@ -56,49 +56,54 @@ void replay(const Disassembly& earlier, const Assembly& assembly, Oracle& oracle
   }
 }
 
-Disassembly disassembly_of(const Plan& plan, const Assembly& assembly, std::size_t count) {
-  const auto fail = [&](const PlanStep& step, const std::string& why) {
-    throw InputError(assembly.source, fmt::format("step {} of the plan {}", step.step, why));
+DisassemblyStep disassembly_step(const PlanStep& from, const Assembly& assembly) {
+  const auto fail = [&](const std::string& why) {
+    throw InputError(assembly.source, fmt::format("step {} of the plan {}", from.step, why));
   };
+  std::vector<std::pair<PartId, const PlanMove*>> moves;
+  for (const PlanMove& move : from.moves) {
+    const auto part = std::find_if(assembly.parts.begin(), assembly.parts.end(),
+                                   [&](const Part& p) { return p.name == move.part; });
+    if (part == assembly.parts.end()) fail(fmt::format("moves '{}', which the assembly does not have", move.part));
+    moves.emplace_back(part->id, &move);
+  }
+  std::sort(moves.begin(), moves.end());
+  DisassemblyStep step;
+  Path path(moves.empty() ? 0 : moves.front().second->poses.size());
+  for (const auto& [id, move] : moves) {
+    step.parts.push_back(id);
+    if (move->poses.size() != path.size() || path.size() < 2) fail("has moves of different lengths");
+    for (std::size_t i = 0; i < path.size(); ++i)
+      path[i].push_back(assembly.normalization.pose_to_internal(move->poses[i]));
+  }
+  step.path = std::make_shared<const Path>(std::move(path));
+  step.placement = from.separates.empty();
+  if (!step.placement && from.separates.front().size() == 1 && moves.size() > 1)
+    for (const auto& [id, move] : moves)
+      if (move->part == from.separates.front().front()) step.released = id;
+  step.max_penetration = from.max_penetration;
+  step.seconds = from.seconds;
+  step.depth = from.depth;
+  step.planner = from.planner;
+  step.up = from.up;
+  for (const std::string& name : from.contacts)
+    if (const auto part =
+            std::find_if(assembly.parts.begin(), assembly.parts.end(), [&](const Part& p) { return p.name == name; });
+        part != assembly.parts.end())
+      step.contacts.push_back(part->id);
+  if (from.forced) step.forced = ForcedCut{{}, from.forced->lower_bound, from.forced->reason, {}};
+  return step;
+}
+
+Disassembly disassembly_of(const Plan& plan, const Assembly& assembly, std::size_t count) {
   Disassembly done(assembly.parts.size());
   for (std::size_t k = 0; k < std::min(count, plan.disassembly.size()); ++k) {
     const PlanStep& from = plan.disassembly[k];
-    std::vector<std::pair<PartId, const PlanMove*>> moves;
-    for (const PlanMove& move : from.moves) {
-      const auto part = std::find_if(assembly.parts.begin(), assembly.parts.end(),
-                                     [&](const Part& p) { return p.name == move.part; });
-      if (part == assembly.parts.end()) fail(from, fmt::format("moves '{}', which the assembly does not have", move.part));
-      moves.emplace_back(part->id, &move);
-    }
-    std::sort(moves.begin(), moves.end());
-    DisassemblyStep step;
-    Path path(moves.empty() ? 0 : moves.front().second->poses.size());
-    for (const auto& [id, move] : moves) {
-      step.parts.push_back(id);
-      if (move->poses.size() != path.size() || path.size() < 2) fail(from, "has moves of different lengths");
-      for (std::size_t i = 0; i < path.size(); ++i)
-        path[i].push_back(assembly.normalization.pose_to_internal(move->poses[i]));
-    }
-    step.path = std::make_shared<const Path>(std::move(path));
-    step.placement = from.separates.empty();
-    if (!step.placement && from.separates.front().size() == 1 && moves.size() > 1)
-      for (const auto& [id, move] : moves)
-        if (move->part == from.separates.front().front()) step.released = id;
-    step.max_penetration = from.max_penetration;
-    step.seconds = from.seconds;
-    step.depth = from.depth;
-    step.planner = from.planner;
-    step.up = from.up;
-    for (const std::string& name : from.contacts)
-      if (const auto part = std::find_if(assembly.parts.begin(), assembly.parts.end(),
-                                         [&](const Part& p) { return p.name == name; });
-          part != assembly.parts.end())
-        step.contacts.push_back(part->id);
-    if (from.forced) step.forced = ForcedCut{{}, from.forced->lower_bound, from.forced->reason, {}};
     try {
-      done.add(std::move(step));
+      done.add(disassembly_step(from, assembly));
     } catch (const std::logic_error& e) {
-      fail(from, fmt::format("is not possible after those before it: {}", e.what()));
+      throw InputError(assembly.source, fmt::format("step {} of the plan is not possible after those before it: {}",
+                                                    from.step, e.what()));
     }
   }
   return done;

@@ -29,7 +29,7 @@ struct Measures {
 };
 
 Mesh in_input_units(const Part& part, const Assembly& assembly) {
-  Mesh mesh = part.surface != nullptr ? *part.surface : *part.mesh;
+  Mesh mesh = *part.mesh;
   for (Eigen::Vector3d& v : mesh.vertices) v = assembly.normalization.to_input(v);
   return mesh;
 }

@@ -217,7 +217,10 @@ RunResult Session::plan(const LoadedAssembly& loaded, const std::optional<RunCon
   const auto assembly = declared(loaded);
   RunOptions options = options_for(loaded, *assembly, request.part);
   if (request.resume != nullptr) options.resume = steps_of(*request.resume, *assembly, request);
-  if (request.steps != nullptr) options.resume = *request.steps;
+  if (request.steps != nullptr) {
+    if (!request.part.empty()) throw Error("a plan of one part does not go on from another plan");
+    options.resume = *request.steps;
+  }
   const PlanningSetup setup = checked_setup(config(), *registry_, request.part);
   if (!request.part.empty()) return run(*assembly, setup, options, context, request.on_step);
   const bool keeps = setup.sequence_planner->traits().keeps_constraints;

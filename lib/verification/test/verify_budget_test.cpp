@@ -34,6 +34,7 @@ TEST(VerifyBudget, ASmallBudgetRefusesWithoutAProof) {
   bool accepted = false, refused = false;
   for (const std::uint64_t tests : {1u, 100u, 10'000u, 1'000'000u}) {
     VerifyOptions options;
+    options.max_penetration = 0.01;  // the corners of the disc cut 0.0024 into the faces of the housing
     options.budget.tests = tests;
     options.budget.tests_per_segment = 0;
     const MotionCheck c = Verifier(assembly, options).check_motion({0}, {{1, Pose{}}}, path);

@@ -37,8 +37,6 @@ inline Path poses_of(const PathResult& result) { return result.path() ? result.p
 
 /// A planner polls cancellation and budget at least once in this many steps (see PathPlanner).
 constexpr std::uint64_t kLook = 100;
-/// VerifyOptions::max_penetration, assembly units.
-constexpr double kTolerance = 0.01;
 /// Enough for any of the small assemblies.
 constexpr std::uint64_t kPlenty = 10'000;
 

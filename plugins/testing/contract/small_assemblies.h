@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "dismantle/plan.h"
 #include "dismantle/preparation/prepare.h"
 #include "dismantle/samples.h"
 #include "dismantle/testing/path_checking.h"
@@ -14,6 +15,9 @@
 namespace dismantle::contract {
 
 using Eigen::Vector3d;
+
+/// The tolerance of all laws, assembly units: the loosest that a plan may have, so that plugins made for it pass.
+inline constexpr double kTolerance = kLargestTolerance;
 
 /// A sample, its largest edge scaled to 3 assembly units, and a part of it that can leave first.
 struct Small {
@@ -30,7 +34,7 @@ struct Small {
     assembly = prepare_assembly(samples::make(sample, given), sample, "", options, context, report);
     for (const auto& p : assembly.parts)
       if (p.name == part) leaves = p.id;
-    verifier = std::make_unique<Verifier>(assembly, VerifyOptions{});
+    verifier = std::make_unique<Verifier>(assembly, VerifyOptions{.max_penetration = kTolerance});
   }
   Scene scene() const { return cast_of({leaves}); }
   /// Parts `moving` in assembled position, all others fixed.

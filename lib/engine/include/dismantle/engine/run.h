@@ -112,6 +112,8 @@ DISMANTLE_API RunResult run(const Assembly& assembly, const PlanningSetup& setup
 /// Disassembly(assembly.parts.size()).
 DISMANTLE_API Plan plan_of(const Disassembly& disassembly, const Assembly& assembly, const RunOptions& options);
 
+/// A step of a plan for this assembly. @throws InputError when it names an unknown part.
+DISMANTLE_API DisassemblyStep disassembly_step(const PlanStep& step, const Assembly& assembly);
 /// The steps of a plan for this assembly, the first `count` of them. @throws InputError for a step that names an unknown
 /// part or parts that are not together.
 DISMANTLE_API Disassembly disassembly_of(const Plan& plan, const Assembly& assembly,
