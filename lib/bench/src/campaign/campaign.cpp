@@ -85,7 +85,7 @@ class Campaign {
       const auto place = results_.claim();
       if (!place) return false;
       try {
-        running_.push_back(std::make_unique<RunningTrial>(*place, enlistment_.trials[*place], suite_.limits, options_,
+        running_.push_back(std::make_unique<RunningTrial>(*place, enlistment_.trials[*place], suite_, options_,
                                                           work_ / std::to_string(*place)));
       } catch (...) {
         results_.release(*place);

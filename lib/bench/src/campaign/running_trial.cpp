@@ -40,10 +40,11 @@ void read_progress(const fs::path& file, TrialRecord& record) {
 
 }  // namespace
 
-RunningTrial::RunningTrial(std::size_t place, const Enlisted& trial, const Limits& limits,
-                           const CampaignOptions& options, fs::path folder)
+RunningTrial::RunningTrial(std::size_t place, const Enlisted& trial, const Suite& suite, const CampaignOptions& options,
+                           fs::path folder)
     : place_(place),
-      limits_(limits),
+      limits_(suite.limits),
+      verify_cpu_(suite.verify_cpu),
       options_(options),
       folder_(std::move(folder)),
       one_part_(!trial.plan.part.empty()) {
@@ -52,7 +53,7 @@ RunningTrial::RunningTrial(std::size_t place, const Enlisted& trial, const Limit
   fs::create_directories(trial.request.inputs);
   write_request(trial.request, folder_);
   row_.started = utc_now();
-  start(options.plan_command);
+  start(options.plan_command, limits_.wall_limit(), limits_.cpu_limit());
 }
 
 RunningTrial::~RunningTrial() {
@@ -61,10 +62,10 @@ RunningTrial::~RunningTrial() {
   fs::remove_all(folder_, error);  // if this fails, the next run removes it
 }
 
-void RunningTrial::start(const std::vector<std::string>& command) {
+void RunningTrial::start(const std::vector<std::string>& command, double wall, double cpu) {
   process::Program program{.command = command,
-                           .limits = {.wall = limits_.wall_limit(),
-                                      .cpu = limits_.cpu_limit(),
+                           .limits = {.wall = wall,
+                                      .cpu = cpu,
                                       .memory = static_cast<std::uint64_t>(limits_.memory) << 20,
                                       .file_size = kLargestFile},
                            .whole_tree = true};
@@ -81,7 +82,7 @@ bool RunningTrial::ended() {
   take_plan(child_->end());
   if (record_.plan.empty()) return true;
   verifying_ = true;
-  start(options_.verify_command);
+  start(options_.verify_command, 2 * verify_cpu_, verify_cpu_);
   return false;
 }
 

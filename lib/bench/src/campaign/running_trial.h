@@ -12,7 +12,7 @@ namespace dismantle::bench {
 class RunningTrial {
  public:
   /// `folder`: owned by this trial; the destructor removes it.
-  RunningTrial(std::size_t place, const Enlisted& trial, const Limits& limits, const CampaignOptions& options,
+  RunningTrial(std::size_t place, const Enlisted& trial, const Suite& suite, const CampaignOptions& options,
                std::filesystem::path folder);
   ~RunningTrial();
   RunningTrial(const RunningTrial&) = delete;
@@ -25,13 +25,16 @@ class RunningTrial {
   const TrialRecord& record() const { return record_; }
 
  private:
-  void start(const std::vector<std::string>& command);
+  /// Starts the process that plans or verifies. Each has times of its own: what the planner used up is not missing to
+  /// the verifier.
+  void start(const std::vector<std::string>& command, double wall, double cpu);
   void take_plan(const process::End& end);
   void take_result();
   void take_verification(const process::End& end);
 
   std::size_t place_;
   Limits limits_;
+  double verify_cpu_;
   const CampaignOptions& options_;
   std::filesystem::path folder_;
   bool one_part_, verifying_ = false, success_ = false;

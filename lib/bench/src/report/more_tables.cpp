@@ -219,6 +219,8 @@ Table trials_table(const ReportData& data, const std::string& plans) {
         {"seconds", maybe(r.solve_seconds)},
         {"wall s", number(r.wall_seconds, "{:.3f}")},
         {"cpu s", number(r.cpu_seconds, "{:.3f}")},
+        {"verify s", maybe(r.verify_seconds)},
+        {"proof s", maybe(r.proof_seconds)},
         {"peak MiB", number(r.peak_rss_mb, "{:.1f}")},
         {"signal", r.signal != 0 ? number(double(r.signal), "{:.0f}") : text("")},
         {"last words", text(words)}};

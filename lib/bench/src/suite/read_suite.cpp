@@ -39,12 +39,17 @@ struct VariantValues {
 
 struct VerifyValues {
   double max_penetration = VerifyOptions{}.max_penetration;
+  double cpu = Suite{}.verify_cpu;
   static void describe(Schema<VerifyValues>& s) {
     s.add("max_penetration", &VerifyValues::max_penetration,
           {.unit = "assembly units",
            .min = 0,
            .min_open = true,
            .doc = "Largest penetration that a plan may have beyond the pair's overlap when assembled."});
+    s.add("cpu", &VerifyValues::cpu,
+          {.unit = "s",
+           .min = 1,
+           .doc = "CPU time after which the verifying process is killed; twice that of wall-clock time."});
   }
 };
 
@@ -97,7 +102,9 @@ class Reader {
     check_keys();
     read_name();
     suite_.limits = section<Limits>("limits");
-    suite_.max_penetration = section<VerifyValues>("verify").max_penetration;
+    const auto verify = section<VerifyValues>("verify");
+    suite_.max_penetration = verify.max_penetration;
+    suite_.verify_cpu = verify.cpu;
     check_limits();
     read_seed_list();
     if (const ConfigNode* list = required("assemblies")) read_assemblies(*list, suite_, problems_);

@@ -56,7 +56,9 @@ struct Suite {
   std::vector<SuiteVariant> variants;
   std::vector<std::int64_t> seeds;
   Limits limits;
-  double max_penetration = kDefaultTolerance;  ///< assembly units; the verifier's tolerance, overrides planners' configurations
+  double max_penetration =
+      kDefaultTolerance;    ///< assembly units; the verifier's tolerance, overrides planners' configurations
+  double verify_cpu = 600;  ///< CPU seconds of the verifying process; it is killed after twice that of wall-clock time
   std::vector<std::string> notes;  ///< optional entries that were skipped, and why
 };
 
