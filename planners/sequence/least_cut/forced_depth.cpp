@@ -53,21 +53,30 @@ std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, cons
   bool proved = true;
   for (const PlacedPart& p : motion.moving)
     for (const PlacedPart& q : motion.fixed) {
-      Known& pair = known(p, q, motion.twist.linear);
-      if (pair.resolution > options.absolute) {
+      // The other part moving the other way cuts in as deep; only the final measurement states a point.
+      const bool swapped = options.absolute > oracle_.tolerance() && p.part > q.part;
+      const PlacedPart &moving = swapped ? q : p, &fixed = swapped ? p : q;
+      const Eigen::Vector3d along = swapped ? Eigen::Vector3d(-motion.twist.linear) : motion.twist.linear;
+      Known& pair = known(moving, fixed, along);
+      const bool too_deep = pair.depth && pair.depth->excess() > options.stop_above;
+      if (!too_deep && pair.resolution > options.absolute) {
         if (context.should_stop()) return worst;
-        const double distance = reach(q, motion.twist.linear) + reach(p, -motion.twist.linear);
+        const double distance = reach(fixed, along) + reach(moving, -along);
         if (distance <= 0) continue;
-        const Pose end{p.pose.t + distance * motion.twist.linear, p.pose.q};
+        const Pose end{moving.pose.t + distance * along, moving.pose.q};
         MotionDepthOptions own = options;
         own.known_invalid = pair.blocked > params_.blocking_share;
-        pair.depth = oracle.depth({p.part}, {q}, {{p.pose}, {end}}, own, context);
+        pair.depth = oracle.depth({moving.part}, {fixed}, {{moving.pose}, {end}}, own, context);
         const bool to_the_end = !context.should_stop() && (!pair.depth || pair.depth->excess() <= options.stop_above);
         if (to_the_end) pair.resolution = options.absolute;
       }
       if (!pair.depth) continue;
       proved = proved && pair.depth->proved;
-      if (!worst || pair.depth->excess() > worst->excess()) worst = pair.depth;
+      if (!worst || pair.depth->excess() > worst->excess()) {
+        worst = pair.depth;
+        worst->part = p.part;
+        worst->other = q.part;
+      }
       worst->proved = false;
       if (worst->excess() > options.stop_above) return worst;
     }

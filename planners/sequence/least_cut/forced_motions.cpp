@@ -123,6 +123,20 @@ std::vector<Vec3> ForcedMotions::directions(const Placed& group, Variety variety
   return list;
 }
 
+/// Along the axes of the parts of the unit, except those that are listed.
+std::vector<Vec3> ForcedMotions::own_directions(const Placed& unit, const std::vector<Vec3>& listed) {
+  std::vector<Vec3> list;
+  for (const PlacedPart& p : unit)
+    for (const geometry::FaceAxis& a : axes(p.part))
+      for (const double sign : {1.0, -1.0}) {
+        const Vec3 d = sign * (p.pose.q * a.axis).normalized();
+        const auto same = [&](const Vec3& other) { return d.dot(other) > geometry::kSameDirection; };
+        if (std::none_of(listed.begin(), listed.end(), same) && std::none_of(list.begin(), list.end(), same))
+          list.push_back(d);
+      }
+  return list;
+}
+
 ForcedMotions::Known& ForcedMotions::known(const PlacedPart& moving, const PlacedPart& fixed, const Vec3& along) {
   const auto [at, is_new] = known_.try_emplace({moving.part, fixed.part, rounded_direction(along)});
   Known& entry = at->second;
@@ -287,13 +301,16 @@ void ForcedMotions::add_screws(const Placed& unit, const Placed& group, std::vec
 std::vector<ForcedMotion> ForcedMotions::candidates(const Placed& group, const RunContext& context) {
   const std::vector<Placed> all = units(group);
   std::vector<ForcedMotion> list;
-  for (const Vec3& d : directions(group, Variety::all))
+  const std::vector<Vec3> shared = directions(group, Variety::all);
+  for (const Vec3& d : shared)
     for (const Placed& unit : all) {
       if (context.should_stop()) break;
       add_straight(unit, all, group, d, list, context);
     }
   for (const Placed& unit : all) {
     if (context.should_stop()) break;
+    // In a large group the axes of small parts are not among those of the group.
+    for (const Vec3& d : own_directions(unit, shared)) add_straight(unit, all, group, d, list, context);
     add_screws(unit, group, list);
   }
   std::stable_sort(list.begin(), list.end(), more_promising);

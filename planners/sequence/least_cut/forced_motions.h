@@ -71,6 +71,7 @@ class ForcedMotions {
   enum class Variety { few, all };
   std::vector<Placed> units(const Placed& group) const;
   std::vector<Eigen::Vector3d> directions(const Placed& group, Variety variety);
+  std::vector<Eigen::Vector3d> own_directions(const Placed& unit, const std::vector<Eigen::Vector3d>& listed);
   const std::vector<geometry::FaceAxis>& axes(PartId part);
   const std::vector<geometry::Twist>& turns(PartId part);
   Known& known(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along);

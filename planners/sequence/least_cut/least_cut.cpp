@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
-#include <map>
 #include <memory>
 #include <utility>
 
+#include "least_cut/comparison.h"
 #include "least_cut/force_budget.h"
 #include "least_cut/forced_motions.h"
 
@@ -40,6 +39,7 @@ void LeastCutParams::describe(Schema<LeastCutParams>& s) {
   s.advanced("finalists", &LeastCutParams::finalists, {.min = 1, .max = 100000});
   s.advanced("depth_resolution", &LeastCutParams::depth_resolution, {.min = 1, .max = 1000});
   s.advanced("depth_share", &LeastCutParams::depth_share, {.min = 0.001, .max = 1});
+  s.advanced("outlook_depths", &LeastCutParams::outlook_depths, {.min = 0, .max = 1000000});
   s.advanced("depth_poses", &LeastCutParams::depth_poses, {.min = 1, .max = 1e9});
 }
 
@@ -47,8 +47,6 @@ namespace least_cut {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr double kFineShare = 0.03;  // a stated depth is written with two digits
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
@@ -66,14 +64,6 @@ Session& session_of(const SequenceQuery& query, PathOracle& oracle, const LeastC
     return std::optional(std::make_shared<Session>(query, oracle, params));
   });
 }
-
-/// A motion and how deep it cuts in; `measured`: to the end.
-struct Choice {
-  ForcedMotion motion;
-  std::optional<MotionDepth> depth{};
-  bool measured = false;
-  double excess() const { return depth ? depth->excess() : 0; }
-};
 
 /// One forced step.
 class Step {
@@ -99,7 +89,8 @@ class Step {
     session_.slowest_quick_step = std::max(session_.slowest_quick_step, seconds_since(begin));
     own.deadline = budget_.for_measuring(steps_left());
     if (!own.should_stop())
-      if (std::optional<Choice> better = least(own)) choice = std::move(better);
+      if (std::optional<Choice> better = Comparison(motions_, params_, oracle_.tolerance()).best(groups(), own))
+        choice = std::move(better);
     if (!choice || context_.cancel.cancelled()) return nullptr;
     const Attempt question{choice->motion.moving, choice->motion.fixed};
     const Path path = motions_.path(choice->motion);
@@ -115,65 +106,6 @@ class Step {
   }
 
  private:
-  /// The motions to measure: the most promising ones of each set of parts, in distinct directions.
-  std::vector<const ForcedMotion*> chosen(const std::vector<ForcedMotion>& all) const {
-    std::map<std::vector<PartId>, std::vector<const ForcedMotion*>> of_set;
-    for (const ForcedMotion& m : all) of_set.try_emplace(ids_of(m.moving));
-    if (of_set.empty()) return {};
-    const std::size_t most = std::max<std::size_t>(params_.set_candidates, params_.candidates / of_set.size());
-    std::vector<const ForcedMotion*> list;
-    for (const ForcedMotion& m : all) {
-      std::vector<const ForcedMotion*>& same = of_set[ids_of(m.moving)];
-      const auto alike = [&](const ForcedMotion* other) {
-        return m.straight() && other->straight() && m.twist.linear.dot(other->twist.linear) > params_.set_similarity;
-      };
-      if (same.size() >= most || std::any_of(same.begin(), same.end(), alike)) continue;
-      same.push_back(&m);
-      list.push_back(&m);
-      if (list.size() == params_.candidates) break;
-    }
-    return list;
-  }
-
-  /// The motion that cuts in least. When stopped: the best of those compared so far, if any.
-  std::optional<Choice> least(const RunContext& context) {
-    std::vector<ForcedMotion> all;
-    for (const Placed& group : query_.start)
-      for (ForcedMotion& m : motions_.candidates(group, context)) all.push_back(std::move(m));
-    std::stable_sort(all.begin(), all.end(),
-                     [](const ForcedMotion& a, const ForcedMotion& b) { return a.thickness < b.thickness; });
-    MotionDepthOptions options{params_.depth_resolution * oracle_.tolerance(), params_.depth_share,
-                               std::numeric_limits<double>::infinity(),
-                               static_cast<std::uint64_t>(params_.depth_poses)};
-    const auto unsure = [&](double excess) { return excess + std::max(options.absolute, options.relative * excess); };
-    std::vector<Choice> compared;
-    double least = std::numeric_limits<double>::infinity();
-    for (const ForcedMotion* m : chosen(all)) {
-      Choice now{*m, motions_.depth(*m, options, context)};
-      if (context.should_stop()) break;
-      least = std::min(least, now.excess());
-      options.stop_above = unsure(least);
-      compared.push_back(std::move(now));
-    }
-    if (compared.empty()) return std::nullopt;
-    std::stable_sort(compared.begin(), compared.end(),
-                     [](const Choice& a, const Choice& b) { return a.excess() < b.excess(); });
-    // Those that may be the least are measured to a tolerance.
-    const double most = unsure(least);
-    options = {oracle_.tolerance(), kFineShare, std::numeric_limits<double>::infinity(), 2 * options.most_poses};
-    std::optional<Choice> best;
-    for (std::size_t k = 0; k < compared.size() && k < params_.finalists && compared[k].excess() <= most; ++k) {
-      Choice now{compared[k].motion, motions_.depth(compared[k].motion, options, context)};
-      if (context.should_stop()) break;
-      if (best && now.excess() >= options.stop_above) continue;
-      now.measured = !now.depth || now.depth->proved;
-      best = std::move(now);
-      options.stop_above = best->excess();
-      if (best->excess() <= oracle_.tolerance()) break;
-    }
-    return best ? best : compared.front();
-  }
-
   /// The most promising of a few motions, with a lower bound of its depth from rays.
   std::optional<Choice> quick_choice(const RunContext& context) {
     std::optional<ForcedMotion> best;
@@ -185,6 +117,8 @@ class Step {
     const std::optional<MotionDepth> depth = motions_.least_depth(*best);
     return Choice{std::move(*best), depth};
   }
+
+  std::vector<Placed> groups() const { return {query_.start.begin(), query_.start.end()}; }
 
   /// Upper bound, since groups that the constraints keep together need fewer steps.
   std::size_t steps_left() const {

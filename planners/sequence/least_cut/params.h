@@ -25,6 +25,7 @@ struct LeastCutParams {
   double depth_resolution = 8;     ///< of the depths that are compared, in tolerances
   double depth_share = 0.1;        ///< the same as a share of the depth; the larger of the two applies
   std::int64_t depth_poses = 200;  ///< poses measured per pair of parts for that comparison
+  unsigned outlook_depths = 400;   ///< motions that are compared to estimate what is left to force after a step
   static void describe(Schema<LeastCutParams>& schema);
 };
 
