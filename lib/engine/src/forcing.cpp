@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "forced_reason.h"
 #include "oracle.h"
 #include "stopwatch.h"
 
@@ -56,26 +57,53 @@ void Forcing::prove_left(std::vector<Unsolved>& unsolved, const std::vector<std:
   dismantle::prove_left(unsolved, groups, oracle_.proofs(), proofs_, context);
 }
 
-/// The text of the proof, or the message and the cost of the searches, in machine-independent counts.
-std::string Forcing::reason_for(const Attempt& attempt, const Certificate* proof,
+/// The text of the proof, or what would have to bend, the cost of the searches in machine-independent counts, and a
+/// line of a configuration that would allow it.
+std::string Forcing::reason_for(const Attempt& attempt, const ForcedRemoval& removal,
                                 std::span<const Unsolved> said) const {
+  const Certificate* proof = removal.cut.certificate.get();
   std::string text = proof != nullptr ? proof->text : std::string();
   if (proof != nullptr && proof->full_tolerance) return text;
+  const MotionDepth& deepest = removal.cut.deepest;
+  const double tolerance = verifier_.options().max_penetration;
+  const auto at = [&](const std::vector<PlacedPart>& side, PartId part) {
+    return std::find_if(side.begin(), side.end(), [&](const PlacedPart& p) { return p.part == part; });
+  };
+  const auto part = at(attempt.moving, deepest.part), other = at(attempt.fixed, deepest.other);
+  if (deepest.depth > 0 && part != attempt.moving.end() && other != attempt.fixed.end()) {
+    std::vector<Pose> way;
+    const auto column = static_cast<std::size_t>(part - attempt.moving.begin());
+    for (const auto& instant : removal.path) way.push_back(instant[column]);
+    if (!text.empty()) text += "; ";
+    text += hindrance_text(assembly_, deepest, way, *other, tolerance);
+  }
+  // Time may have gone into either part of the pair.
+  std::vector<PartId> searched = ids_of(attempt.moving);
+  if (attempt.fixed.size() == 1 || attempt.moving.size() > 1) searched.push_back(deepest.other);
   SearchEffort effort;
-  for (const PlacedPart& p : attempt.moving) {
-    for (const Unsolved& u : said)
-      if (u.part == p.part && u.certificate == nullptr && text.empty()) text = u.message;
-    const SearchEffort own = oracle_.effort_on(p.part);
+  for (const PartId id : searched) {
+    const SearchEffort own = oracle_.effort_on(id);
     effort.attempts += own.attempts;
     effort.depth = std::max(effort.depth, own.depth);
     effort.cost += own.cost;
   }
   if (!text.empty()) text += "; ";
-  if (effort.attempts == 0) return text + "no straight motion was found to be valid, and no search came to its end";
-  return text + fmt::format("{} of '{}'{}, {:.0f} steps and state checks, found no path",
-                            effort.attempts == 1 ? "1 search" : fmt::format("{} searches", effort.attempts),
-                            oracle_.planner_id(), effort.depth == 0 ? "" : fmt::format(" to depth {}", effort.depth),
-                            effort.cost);
+  if (effort.attempts == 0) {
+    std::string why = "no straight motion was found to be valid, and no search came to its end";
+    for (const Unsolved& u : said)
+      if (u.certificate == nullptr && !u.message.empty() && u.outcome != Outcome::cancelled &&
+          u.outcome != Outcome::timeout && contains(attempt.moving, u.part))
+        why = u.message;
+    text += why;
+  } else {
+    text += fmt::format("{} of '{}'{}, {:.0f} steps and state checks, found no path",
+                        effort.attempts == 1 ? "1 search" : fmt::format("{} searches", effort.attempts),
+                        oracle_.planner_id(), effort.depth == 0 ? "" : fmt::format(" to depth {}", effort.depth),
+                        effort.cost);
+  }
+  if (removal.cut.lower_bound || deepest.depth <= 0) return text;
+  const std::string line = suggestion_text(assembly_, deepest, tolerance);
+  return line.empty() ? text : text + "; if it is meant to be so: `" + line + "`";
 }
 
 const AttemptResult& Forcing::propose_forced(const Attempt& attempt, const Path& path,
@@ -102,7 +130,7 @@ const AttemptResult& Forcing::propose_forced(const Attempt& attempt, const Path&
   removal.cut.deepest = deepest.value_or(MotionDepth{moving.front(), answer.attempt.fixed.front().part});
   const Certificate* proof = proof_for(answer.attempt, removal.cut.deepest, said, context);
   if (proof != nullptr) removal.cut.certificate = std::make_shared<const Certificate>(*proof);
-  removal.cut.reason = reason_for(answer.attempt, proof, said);
+  removal.cut.reason = reason_for(answer.attempt, removal, said);
   const double to_input = 1 / assembly_.normalization.scale;
   context.log(LogLevel::info,
               fmt::format("forced: '{}' past '{}', {}{:.4g} deep", assembly_.parts[removal.cut.deepest.part].name,

@@ -34,7 +34,7 @@ class Forcing final : public ForcingOracle {
  private:
   const Certificate* proof_for(const Attempt& attempt, const MotionDepth& deepest, std::span<const Unsolved> said,
                                const RunContext& context);
-  std::string reason_for(const Attempt& attempt, const Certificate* proof, std::span<const Unsolved> said) const;
+  std::string reason_for(const Attempt& attempt, const ForcedRemoval& removal, std::span<const Unsolved> said) const;
 
   const Assembly& assembly_;
   const Verifier& verifier_;

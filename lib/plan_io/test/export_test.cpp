@@ -102,6 +102,14 @@ TEST(Exports, MarkdownHasARowPerStepAndNoMarkupOfNames) {
   EXPECT_EQ(rows, plan.disassembly.size());
 }
 
+TEST(Exports, MarkdownSaysWhyEachForcedStepIsForced) {
+  std::mt19937 random(5);
+  auto [plan, assembly] = random_disassembly(random, 5);
+  EXPECT_EQ(steps_markdown(plan, {}).find("forced"), std::string::npos);
+  plan.disassembly[2].forced = PlanForced{.part = "hook", .other = "rim", .depth = 1, .reason = "it <snaps>"};
+  EXPECT_NE(steps_markdown(plan, {}).find("- Step 3 cuts hook into rim: it \\<snaps\\>.\n"), std::string::npos);
+}
+
 TEST(MotionWords, LegsOfAPathAreFoundAgain) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> any(-1, 1);

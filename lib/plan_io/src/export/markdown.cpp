@@ -40,6 +40,16 @@ std::string judged_cell(const std::vector<PlanVerdict>& checks) {
   return out.empty() ? "-" : out;
 }
 
+/// A list, one line for each forced step.
+std::string forced_reasons(const Plan& plan) {
+  std::string out;
+  for (const PlanStep& step : plan.disassembly)
+    if (step.forced && !step.forced->reason.empty())
+      out += fmt::format("- Step {} cuts {} into {}: {}.\n", step.step, markdown_text(step.forced->part),
+                         markdown_text(step.forced->other), markdown_text(step.forced->reason));
+  return out.empty() ? out : "\nWhy steps are forced:\n\n" + out;
+}
+
 }  // namespace
 
 std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
@@ -79,6 +89,7 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
         "the "
         "largest edge has {:.3g}; {:.2g} are allowed.\n",
         size * a.scale, plan.verified_max_penetration);
+    out += forced_reasons(plan);
   }
   if (!plan.remaining.empty()) out += fmt::format("\nStays: {}.\n", markdown_text(text::joined(plan.remaining)));
   if (!plan.unsolved.empty()) {

@@ -84,6 +84,36 @@ TEST(ForcedSteps, ThePairThatIsCutIsAskedAboutAndItsProofIsCited) {
   }
 }
 
+/// The time went into a search for the box; the plate had not had its turn. The reason names the search.
+TEST(ForcedSteps, ASearchForThePartnerOfAPairIsTheReasonAndNotThatThePartWasNotTried) {
+  const auto box_only = [](const Assembly&, PathOracle& oracle, SequenceObserver&, RunContext& context) {
+    Attempt attempt;
+    attempt.moving = {{0, Pose{}}};
+    attempt.fixed = {{1, Pose{}}};
+    EXPECT_FALSE(is_success(oracle.attempt(attempt, context).result.outcome()));
+    SequenceResult result;
+    result.outcome = Outcome::cancelled;
+    for (const PartId id : {0U, 1U})
+      result.unsolved.push_back({id, Outcome::cancelled, {}, {}, "not tried: stopped before its turn"});
+    return result;
+  };
+  const RunResult r = fake::forced_run(fake::closed_box(), std::make_shared<fake::Custom>(box_only));
+  ASSERT_EQ(r.plan.forced_steps(), 1U);
+  const std::string& reason = r.plan.disassembly.front().forced->reason;
+  EXPECT_EQ(reason.find("not tried"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("1 search of"), std::string::npos) << reason;
+}
+
+/// The line that the reason of a forced step suggests turns the step into an accepted one.
+TEST(ForcedSteps, WhatTheReasonSuggestsIsAccepted) {
+  const std::string reason = last_resort_in_turn(fake::closed_box()).plan.disassembly.front().forced->reason;
+  ASSERT_NE(reason.find("as: snap, depth: "), std::string::npos) << reason;
+  RunOptions options;
+  options.constraints.accept = {{1, 0, "snap", std::stod(reason.substr(reason.find("depth: ") + 7))}};
+  const RunResult r = fake::forced_run(fake::closed_box(), std::make_shared<InTurn>(), {}, options);
+  EXPECT_EQ(r.plan.status, PlanStatus::complete);
+}
+
 /// A closed box of thin walls around two cubes.
 Assembly box_with_two_cubes() {
   return fake::assembly_of({{"box",
