@@ -178,6 +178,14 @@ std::vector<SearchPause> ProofSchedule::during(const Attempt& attempt, const Run
                         return prove_pair(attempt.moving.front().part, attempt.fixed.front().part, ProofEffort::medium,
                                           context);
                       }});
+  // The reduced tolerance tells whether there is hope; only a proof for the whole one ends a search.
+  if (is_pair(attempt) && is_provable(attempt, options_.medium_effort_depth) &&
+      options_.high_effort_steps > std::max(options_.low_effort_steps, options_.medium_effort_steps))
+    pauses.push_back({static_cast<std::uint64_t>(options_.high_effort_steps), [this, &attempt, &context] {
+                        const PartId a = attempt.moving.front().part, b = attempt.fixed.front().part;
+                        const bool provable = prove_reduced(a, b, context) != nullptr;
+                        return provable ? prove_pair(a, b, ProofEffort::high, context) : nullptr;
+                      }});
   return pauses;
 }
 

@@ -134,6 +134,29 @@ TEST(ProofSchedule, ASearchIsOverBeforeAProofThatCostsAsMuch) {
   }
 }
 
+/// A long search for one of a pair is asked about once, first at the reduced tolerance; only a proof for the whole
+/// tolerance ends it.
+TEST(ProofSchedule, ALongSearchOfAPairWaitsForTheMostExpensiveProof) {
+  for (const bool is_long : {false, true})
+    for (const double provable : {0.0, 0.5, 1.0}) {  // shares of the tolerance up to this
+      const RunOptions options;
+      const auto steps = static_cast<std::uint64_t>(options.proofs.high_effort_steps);
+      std::vector<double> shares;
+      const NamedProver high = fake::prover("high", kHigh, [&](const SeparationQuery& q, const RunContext&) {
+        shares.push_back(q.share);
+        return q.share <= provable ? std::optional(fake::claim(q)) : std::nullopt;
+      });
+      int cut_short = 0;
+      Rig s(row(2), with(fake::setup(spending(is_long ? 2 * steps : 100, cut_short)), {high}), 1, options);
+      const AttemptResult& r = s.ask(leave(s.assembly, 0, 0));
+      const std::vector<double> asked = !is_long ? std::vector<double>{}
+                                        : provable > 0 ? std::vector<double>{options.proofs.reduced_tolerance, 1}
+                                                       : std::vector<double>{options.proofs.reduced_tolerance};
+      EXPECT_EQ(shares, asked);
+      EXPECT_EQ(r.result.outcome(), is_long && provable == 1 ? Outcome::infeasible : Outcome::solved);
+    }
+}
+
 TEST(ProofSchedule, MediumEffortComesAfterDeepSearchesThatFoundNothing) {
   Asked medium;
   int searches = 0;

@@ -19,6 +19,7 @@ struct ProofOptions {
   /// search ends earlier without a path, they are tried then.
   std::int64_t low_effort_steps = 2'000;
   std::int64_t medium_effort_steps = 20'000;  ///< As low_effort_steps, for expensive proofs.
+  std::int64_t high_effort_steps = 30'000;   ///< As low_effort_steps, for the most expensive proofs about a pair.
   /// Share of the tolerance for which the last proofs are tried first. With a smaller tolerance more can be proved, but
   /// the proof covers fewer motions.
   double reduced_tolerance = 0.5;
