@@ -15,6 +15,8 @@ constexpr double kEqualSums = 1.1;   // of sums up to this factor the number of 
 
 bool cuts_less(const Choice& a, const Choice& b) { return a.excess() < b.excess(); }
 
+bool same_parts(const Choice& a, const Choice& b) { return ids_of(a.motion.moving) == ids_of(b.motion.moving); }
+
 }  // namespace
 
 bool Outlook::better_than(const Outlook& other) const {
@@ -64,8 +66,7 @@ std::vector<std::pair<double, const ForcedMotion*>> Comparison::not_shown_to_be_
   return list;
 }
 
-/// Motions out of the groups with their depths, one for each set of parts, least first. What is deeper than others is
-/// compared only until that is known.
+/// Motions out of the groups with their depths, least first. Those that are known to be deeper than others are left out.
 std::vector<Choice> Comparison::compared(const std::vector<Placed>& groups, const Scope& scope,
                                          const RunContext& context) {
   std::vector<ForcedMotion> all;
@@ -73,12 +74,13 @@ std::vector<Choice> Comparison::compared(const std::vector<Placed>& groups, cons
     for (ForcedMotion& m : motions_.candidates(group, context)) all.push_back(std::move(m));
   std::stable_sort(all.begin(), all.end(),
                    [](const ForcedMotion& a, const ForcedMotion& b) { return a.thickness < b.thickness; });
-  std::map<std::vector<PartId>, Choice> of_set;
+  std::vector<Choice> list;
+  std::map<std::vector<PartId>, double> of_set;
   double least = kInfinite;
   const auto least_of = [&](const ForcedMotion& m) {
     if (scope.limit == 0) return least;
     const auto same = of_set.find(ids_of(m.moving));
-    return same == of_set.end() ? scope.limit : std::min(scope.limit, same->second.excess());
+    return same == of_set.end() ? scope.limit : std::min(scope.limit, same->second);
   };
   const auto measure = [&](const ForcedMotion& m, double stop_above) {
     if (context.should_stop() || (scope.depths != nullptr && *scope.depths == 0)) return false;
@@ -89,8 +91,9 @@ std::vector<Choice> Comparison::compared(const std::vector<Placed>& groups, cons
     if (scope.depths != nullptr) --*scope.depths;
     if (now.excess() > stop_above) return true;  // only a lower bound
     least = std::min(least, now.excess());
-    const auto [same, is_new] = of_set.try_emplace(ids_of(m.moving), now);
-    if (!is_new && cuts_less(now, same->second)) same->second = std::move(now);
+    double& of_same = of_set.try_emplace(ids_of(m.moving), now.excess()).first->second;
+    of_same = std::min(of_same, now.excess());
+    list.push_back(std::move(now));
     return scope.depths == nullptr || least > tolerance_;
   };
   // Of an estimate, and of what is less promising, only what is clearly less deep is of interest.
@@ -111,8 +114,6 @@ std::vector<Choice> Comparison::compared(const std::vector<Placed>& groups, cons
       if (!measure(*m, clearly_less(*m))) break;
     }
   }
-  std::vector<Choice> list;
-  for (auto& [set, choice] : of_set) list.push_back(std::move(choice));
   std::stable_sort(list.begin(), list.end(), cuts_less);
   return list;
 }
@@ -147,6 +148,8 @@ std::vector<Choice> Comparison::of_best_outlook(const std::vector<Choice>& list,
   for (const Choice& choice : list) {
     const auto better = [&](const auto& other) { return choice.excess() > kEqualSums * other.first.depth; };
     if (std::any_of(sums.begin(), sums.end(), better)) break;  // the list ascends
+    if (std::any_of(sums.begin(), sums.end(), [&](const auto& other) { return same_parts(choice, *other.second); }))
+      continue;
     const std::optional<Outlook> sum = outlook_after(choice, depths, context);
     if (!sum) break;
     sums.emplace_back(*sum, &choice);
@@ -155,7 +158,9 @@ std::vector<Choice> Comparison::of_best_outlook(const std::vector<Choice>& list,
     return a.first.better_than(b.first);
   });
   if (best == sums.end()) return list;
-  std::vector<Choice> result{*best->second};
+  std::vector<Choice> result;
+  for (const Choice& choice : list)
+    if (same_parts(choice, *best->second)) result.push_back(choice);
   for (const auto& [sum, choice] : sums)
     if (choice != best->second && sum.steps <= best->first.steps && sum.depth <= unsure(best->first.depth))
       result.push_back(*choice);
