@@ -66,7 +66,7 @@ std::vector<std::pair<double, const ForcedMotion*>> Comparison::not_shown_to_be_
   return list;
 }
 
-/// Motions out of the groups with their depths, least first. Those that are known to be deeper than others are left out.
+/// Motions out of the groups with their depths, least first, without those that are known to be deeper than others.
 std::vector<Choice> Comparison::compared(const std::vector<Placed>& groups, const Scope& scope,
                                          const RunContext& context) {
   std::vector<ForcedMotion> all;
