@@ -29,6 +29,18 @@ class Check(CliTest):
         self.assertTrue(9.9 <= x <= 14.1 and 9.9 <= y <= 14.1 and 2.9 <= z <= 4.1, overlaps[0]["at"])
         self.assertNotIn("picture", overlaps[0])
 
+    def test_warnings_alone_are_no_failure_and_what_is_left_out_is(self):
+        for name, lo in (("here", (0, 0, 0)), ("there", (50, 0, 0))):
+            self.write(f"loose/{name}.obj", meshes.obj(*meshes.box(lo, [x + 4 for x in lo])))
+        for command in (["check", "loose"], ["plan", "loose", "-o", "out"]):
+            self.run_program(*command, "-q", status=0)
+        done = self.run_program("check", "loose", status=0)
+        self.assertIn("0 errors", done.stdout)
+        self.assertIn("touches no other part", done.stdout)
+        self.write("loose/empty.obj", "v 0 0 0\n")
+        for command in (["check", "loose"], ["plan", "loose", "-o", "out"]):
+            self.run_program(*command, "-q", status=1)
+
     def test_contacts_have_a_class(self):
         done = self.run_program("check", "parts", "--format", "json", "-q", status=1)
         result = json.loads(done.stdout.splitlines()[-1])

@@ -311,9 +311,7 @@ std::size_t AssemblyCheck::count(Severity severity) const {
 }
 
 bool AssemblyCheck::sound() const {
-  return std::ranges::all_of(findings, [](const Finding& f) {
-    return f.severity == Severity::note || (f.severity == Severity::warning && f.kind == FindingKind::input);
-  });
+  return count(Severity::error) == 0 && usable == parts;
 }
 
 AssemblyCheck check_parts(const PrepareReport& report) {

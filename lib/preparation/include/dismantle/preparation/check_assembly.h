@@ -70,7 +70,8 @@ struct AssemblyCheck {
   std::vector<CheckedContact> contacts;  ///< pairs nearer than 1 % of the assembly's size, in the order of its parts
   std::vector<CheckedKind> kinds{};      ///< of parts whose kind was looked at, fasteners first; see Part::kind
   std::size_t count(Severity severity) const;
-  /// Whether nothing has to be mended: no error, and no warning but those about the reading of the input.
+  /// Whether a plan can be trusted to be about the whole assembly: no error, and no part is left out. Warnings alone
+  /// are for people to look at.
   bool sound() const;
 };
 
