@@ -95,7 +95,7 @@ void add_diff(CLI::App& app, Action& action) {
   add_verbosity(*command, options->console);
   command->footer(
       "Parts are compared by name, shape and place; one whose name alone changed is renamed. If OLD is a plan, each of\n"
-      "its steps is verified in the new assembly; `dismantle plan NEW --from OLD` keeps those that hold and plans the rest.\n"
+      "its steps is verified in the new assembly; 'dismantle plan' can keep those that hold and plan the rest (docs/cli.md).\n"
       "Exit status: 0 nothing differs and all steps hold, 1 otherwise.\n"
       "Examples:\n"
       "  dismantle diff gearbox_a.step gearbox_b.step\n"
