@@ -35,12 +35,18 @@ Side load(const std::string& what, const Session& session, const RunContext& con
 
 std::string line_of(const PartRevision& part) {
   switch (part.fate) {
-    case PartFate::same: return {};
-    case PartFate::moved: return fmt::format("moved    {}\n", part.now);
-    case PartFate::changed: return fmt::format("changed  {}\n", part.now);
-    case PartFate::renamed: return fmt::format("renamed  {} -> {}\n", part.before, part.now);
-    case PartFate::added: return fmt::format("added    {}\n", part.now);
-    case PartFate::removed: return fmt::format("removed  {}\n", part.before);
+    case PartFate::same:
+      return {};
+    case PartFate::moved:
+      return fmt::format("moved    {}\n", part.now);
+    case PartFate::changed:
+      return fmt::format("changed  {}\n", part.now);
+    case PartFate::renamed:
+      return fmt::format("renamed  {} -> {}\n", part.before, part.now);
+    case PartFate::added:
+      return fmt::format("added    {}\n", part.now);
+    case PartFate::removed:
+      return fmt::format("removed  {}\n", part.before);
   }
   return {};
 }
@@ -68,8 +74,9 @@ int diff(const DiffOptions& options) {
   if (before.plan) {
     VerifyOptions verify = session.config().verify;
     verify.max_penetration = before.plan->verified_max_penetration;
-    const KeptSteps kept = stoppable(
-        context, [&] { return kept_steps(*before.plan, now.assembly, Verifier(now.assembly, verify, context), context); });
+    const KeptSteps kept = stoppable(context, [&] {
+      return kept_steps(*before.plan, now.assembly, {}, Verifier(now.assembly, verify, context), context);
+    });
     if (context.should_stop()) throw Stopped(context, "stopped before all steps were verified");
     for (const StepRevision& step : kept.revisions) steps_differ = steps_differ || !step.kept;
     text += kept_text(kept, options.before);
@@ -87,15 +94,19 @@ int diff(const DiffOptions& options) {
 void add_diff(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("diff", "What changed between two revisions of an assembly");
   auto options = std::make_shared<DiffOptions>();
-  command->add_option("OLD", options->before, "Plan (.json) or input of the earlier revision")->required()->option_text(" ");
+  command->add_option("OLD", options->before, "Plan (.json) or input of the earlier revision")
+      ->required()
+      ->option_text(" ");
   command->add_option("NEW", options->now, "Plan (.json) or input of the later revision")->required()->option_text(" ");
   options->config.add_file_and_set(*command);
   options->config.add_key(*command, "--threads", "run.threads", "N", "Threads, 0 = all cores");
   add_format(*command, options->console);
   add_verbosity(*command, options->console);
   command->footer(
-      "Parts are compared by name, shape and place; one whose name alone changed is renamed. If OLD is a plan, each of\n"
-      "its steps is verified in the new assembly; 'dismantle plan' can keep those that hold and plan the rest (docs/cli.md).\n"
+      "Parts are compared by name, shape and place; one whose name alone changed is renamed. If OLD is a plan, each "
+      "of\n"
+      "its steps is verified in the new assembly; 'dismantle plan' can keep those that hold and plan the rest "
+      "(docs/cli.md).\n"
       "Exit status: 0 nothing differs and all steps hold, 1 otherwise.\n"
       "Examples:\n"
       "  dismantle diff gearbox_a.step gearbox_b.step\n"

@@ -139,6 +139,8 @@ PlanEdit edit_of(const EditOptions& options, const Plan& plan) {
     const auto direction = direction_named(text.substr(equals + 1));
     if (!direction)
       throw Error(fmt::format("--direction: '{}' is no direction: {}", text.substr(equals + 1), kDirections));
+    if (edit.directions.contains(step))
+      throw Error(fmt::format("--direction: step {} has two directions", steps.number(step)));
     edit.directions[step] = options.disassembly ? *direction : Eigen::Vector3d(-*direction);
   }
   return edit;
@@ -168,6 +170,9 @@ int edit_plan(const EditOptions& options) {
   if ((options.move != 0) != (options.before != 0 || options.after != 0))
     throw Error("--move-step needs --before N or --after N, and these need --move-step");
   const Plan plan = read_plan(options.plan);
+  if (!plan.asked.part.empty())
+    throw Error(
+        fmt::format("{} is the path of one part, '{}': there is no order to edit", options.plan, plan.asked.part));
   const PlanEdit edit = edit_of(options, plan);
   const fs::path folder = options.folder;
   std::error_code error;

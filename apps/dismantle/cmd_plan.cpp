@@ -124,7 +124,8 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
   std::optional<KeptSteps> kept;
   if (!options.from.empty()) {
     kept = stoppable(context, [&] {
-      return kept_steps(*earlier, assembly, Verifier(assembly, config.verify, context), context);
+      return kept_steps(*earlier, assembly, constraints_of(config.constraints, assembly),
+                        Verifier(assembly, config.verify, context), context);
     });
     request.steps = &kept->steps;
   }

@@ -10,8 +10,8 @@ namespace dismantle::app {
 
 std::string kept_text(const KeptSteps& kept, const std::string& plan) {
   const auto count = std::ranges::count_if(kept.revisions, [](const StepRevision& r) { return r.kept; });
-  std::string out = fmt::format("{} of {} of {} still hold\n", count,
-                                text::counted(kept.revisions.size(), "step"), plan);
+  std::string out =
+      fmt::format("{} of {} of {} still hold\n", count, text::counted(kept.revisions.size(), "step"), plan);
   for (const StepRevision& r : kept.revisions)
     if (!r.kept) out += fmt::format("  step {} ({}) does not: {}\n", r.step, text::joined(r.parts), r.reason);
   return out;

@@ -71,6 +71,13 @@ class Edit(CliTest):
         with self.assertRaises(FileNotFoundError):
             self.read("new", "plan.json")
 
+    def test_an_order_that_a_constraint_forbids_is_refused(self):
+        old = self.leaving()
+        order = ",".join(str(k + 1) for k in range(len(old)))
+        done = self.edit("--order", order, "--set", f"constraints.base=[{old[0]}]", status=1)
+        self.assertEqual(json.loads(done.stdout)["step"], len(old))
+        self.assertIn("it moves a part of the base", done.stderr)
+
     def test_directions_are_those_of_the_insertion(self):
         number = len(self.leaving())  # the last part that is put in is the first that leaves
         def out():
@@ -99,7 +106,8 @@ class Edit(CliTest):
                 ("step 1 is there twice", ["--order", "1,1"]),
                 ("is missing; name every step once", ["--order", "1"]),
                 ("'x' is no number of a step", ["--order", "x"]),
-                ("'up' is no direction", ["--direction", "1=up"])]:
+                ("'up' is no direction", ["--direction", "1=up"]),
+                ("step 1 has two directions", ["--direction", "1=+z", "--direction", "1=-z"])]:
             done = self.run_program("edit", "out/plan.json", *arguments, "-o", "new", status=2)
             self.assertIn(message, done.stderr)
         done = self.run_program("edit", "out/plan.json", "--direction", "1=+z", "-o", "out", status=2)

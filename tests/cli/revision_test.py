@@ -72,6 +72,18 @@ class Revision(CliTest):
         self.assertEqual(len(self.plan("new")["disassembly"]), 5)
         self.run_program("verify", "new/plan.json", status=0)
 
+    def test_a_step_that_a_constraint_forbids_is_not_kept(self):
+        self.run_program("plan", self.assembly("a"), "-o", "old", "-q", status=0)
+        old = [s["moves"][0]["part"] for s in self.plan("old")["disassembly"]]
+        done = self.result_of(self.run_program(
+            "plan", "a", "--from", "old/plan.json", "-o", "new", "--set", f"constraints.before=[[{old[1]}, {old[0]}]]",
+            "--format", "json", "-q", status=0))
+        self.assertEqual([s["kept"] for s in done["revised"]], [False, True, True, True])
+        self.assertIn("another part has to leave first", done["revised"][0]["reason"])
+        new = [s["moves"][0]["part"] for s in self.plan("new")["disassembly"]]
+        self.assertLess(new.index(old[1]), new.index(old[0]))
+        self.assertEqual(sorted(new), sorted(old))
+
     def test_what_does_not_go_together_is_refused(self):
         self.run_program("plan", self.assembly("a"), "-o", "old", "-q", status=0)
         self.assertIn("excludes", self.run_program("plan", "a", "--from", "old/plan.json", "--resume", "old/plan.json", status=2).stderr)

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "dismantle/engine/broken_constraint.h"
 #include "dismantle/part_set.h"
 
 namespace dismantle {
@@ -57,8 +58,10 @@ void Recorder::record(const Removal& removal, const DisassemblyStep* earlier) {
 
 void Recorder::add(const Removal& removal, const DisassemblyStep* earlier) {
   check_question(removal);
-  check_constraints(removal);
   DisassemblyStep step = to_step(removal);
+  const std::string broken =
+      broken_constraint(step, disassembly_.groups()[*disassembly_.common_group(step.parts)], constraints_);
+  if (!broken.empty()) throw std::logic_error("a removal against a constraint: " + broken);
   if (earlier != nullptr) {
     step.seconds = earlier->seconds;
     step.depth = earlier->depth;
@@ -104,23 +107,6 @@ void Recorder::check_question(const Removal& removal) const {
   if (removal.parts != ids_of(removal.attempt->attempt.moving) ||
       digest_of(canonical(question, assembly_.parts.size())) != key->scene)
     throw std::logic_error("a removal whose path was found for other parts or other places");
-}
-
-void Recorder::check_constraints(const Removal& removal) const {
-  for (const PartId id : constraints_.base)
-    if (contains(removal.parts, id)) throw std::logic_error("a removal that moves a part of the base");
-  for (const auto& list : constraints_.together) {
-    const auto moves = [&](PartId id) { return contains(removal.parts, id); };
-    const bool any = std::any_of(list.begin(), list.end(), moves);
-    if (any && (!std::all_of(list.begin(), list.end(), moves) || (removal.attempt->out && list.size() > 1)))
-      throw std::logic_error("a removal that parts what is to stay together");
-  }
-  if (removal.attempt->attempt.goal.placement) return;
-  const std::vector<PartId> leaving =
-      removal.attempt->out ? std::vector<PartId>{*removal.attempt->out} : removal.parts;
-  const std::vector<PartId> rest = without(disassembly_.groups()[*disassembly_.common_group(removal.parts)], leaving);
-  if (!may_leave(leaving, rest, constraints_))
-    throw std::logic_error("a removal before another that is to come first");
 }
 
 DisassemblyStep Recorder::to_step(const Removal& removal) const {

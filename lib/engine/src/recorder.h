@@ -37,7 +37,6 @@ class Recorder final : public SequenceObserver {
   void add(const Removal& removal, const DisassemblyStep* earlier);
   DisassemblyStep to_step(const Removal& removal) const;
   void check_question(const Removal& removal) const;
-  void check_constraints(const Removal& removal) const;
   bool continues_last(const DisassemblyStep& step) const;
 
   const Assembly& assembly_;

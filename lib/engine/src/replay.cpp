@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "dismantle/engine/broken_constraint.h"
 #include "dismantle/engine/run.h"
 #include "dismantle/errors.h"
 #include "dismantle/part_set.h"
@@ -33,13 +34,15 @@ const AttemptResult& ask_again(const DisassemblyStep& step, const Attempt& quest
 
 }  // namespace
 
-void replay(const Disassembly& earlier, const Assembly& assembly, Oracle& oracle, Recorder& recorder,
-            RunContext& context) {
+void replay(const Disassembly& earlier, const Assembly& assembly, const Constraints& constraints, Oracle& oracle,
+            Recorder& recorder, RunContext& context) {
   for (std::size_t k = 0; k < earlier.steps().size() && !context.should_stop(); ++k) {
     const DisassemblyStep& step = earlier.steps()[k];
     const Disassembly& now = recorder.disassembly();
     const std::optional<std::size_t> group = now.common_group(step.parts);
     if (!group) throw StepRefused(assembly.source, k, "it moves parts that are not together");
+    if (const std::string broken = broken_constraint(step, now.groups()[*group], constraints); !broken.empty())
+      throw StepRefused(assembly.source, k, broken);
     Attempt question{now.placed(step.parts), now.placed(without(now.groups()[*group], step.parts))};
     question.goal.placement = step.placement;
     if (step.released) question.goal.any_of = {*step.released};
@@ -48,11 +51,7 @@ void replay(const Disassembly& earlier, const Assembly& assembly, Oracle& oracle
       if (context.should_stop()) return;
       throw StepRefused(assembly.source, k, answer.result.message);
     }
-    try {
-      recorder.repeated({step.parts, &answer, "", step.up}, step);
-    } catch (const std::logic_error& e) {  // of a constraint
-      throw StepRefused(assembly.source, k, e.what());
-    }
+    recorder.repeated({step.parts, &answer, "", step.up}, step);
   }
 }
 

@@ -7,9 +7,9 @@
 
 namespace dismantle {
 
-/// Proposes each step to the oracle and records the answer. @throws StepRefused for a step that is not valid. Ends early
-/// when `context` asks to stop.
-void replay(const Disassembly& earlier, const Assembly& assembly, Oracle& oracle, Recorder& recorder,
-            RunContext& context);
+/// Proposes each step to the oracle and records the answer. @throws StepRefused for a step that is not valid or that a
+/// constraint forbids. Ends early when `context` asks to stop.
+void replay(const Disassembly& earlier, const Assembly& assembly, const Constraints& constraints, Oracle& oracle,
+            Recorder& recorder, RunContext& context);
 
 }  // namespace dismantle

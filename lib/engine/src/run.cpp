@@ -175,7 +175,7 @@ class Run {
   bool only_one() const { return !options_.only_part.empty(); }
 
   void plan_steps() {
-    if (options_.resume) replay(*options_.resume, assembly_, oracle_, recorder_, context_);
+    if (options_.resume) replay(*options_.resume, assembly_, options_.constraints, oracle_, recorder_, context_);
     const SequenceQuery query{assembly_, open_groups(recorder_.disassembly(), options_.constraints),
                               options_.constraints, setup_.objective};
     if (RequiringOracle::is_needed(setup_.objective))

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "dismantle/engine/broken_constraint.h"
 #include "dismantle/engine/run.h"
 #include "dismantle/errors.h"
 #include "dismantle/geometry/congruent_parts.h"
@@ -106,8 +107,13 @@ class Comparison {
 /// Tries the steps of a plan one by one.
 class Keeping {
  public:
-  Keeping(const Assembly& now, const Verifier& verifier, const RunContext& context)
-      : assembly_(now), verifier_(verifier), context_(context), straight_(now), kept_{Disassembly(now.parts.size())} {
+  Keeping(const Assembly& now, const Constraints& constraints, const Verifier& verifier, const RunContext& context)
+      : assembly_(now),
+        constraints_(constraints),
+        verifier_(verifier),
+        context_(context),
+        straight_(now),
+        kept_{Disassembly(now.parts.size())} {
     for (const Part& part : now.parts) names_.emplace(part.name, part.id);
   }
 
@@ -137,7 +143,8 @@ class Keeping {
     if (planned.forced) return "it was forced";
     const PlanStep there = present(planned);
     if (there.moves.empty()) return "its parts are not there any more";
-    if (!there.separates.empty() && there.separates.front().empty()) return "the part that it frees is not there any more";
+    if (!there.separates.empty() && there.separates.front().empty())
+      return "the part that it frees is not there any more";
     DisassemblyStep step = disassembly_step(there, assembly_);
     const std::optional<std::size_t> group = kept_.steps.common_group(step.parts);
     if (!group) return "its parts are not together at that time";
@@ -146,6 +153,8 @@ class Keeping {
     for (std::size_t i = 0; i < moving.size(); ++i)
       if (!same_place(moving[i].pose, step.path->front()[i])) return "its parts are elsewhere at that time";
     if (rest.empty()) return "nothing would be left of the group that its parts are in";
+    if (std::string broken = broken_constraint(step, kept_.steps.groups()[*group], constraints_); !broken.empty())
+      return broken;
     if (!step.placement && !step.released)
       step.path = std::make_shared<const Path>(straight_.long_enough(*step.path, step.parts, rest));
     const MotionCheck check = verifier_.check_motion(step.parts, rest, *step.path, context_);
@@ -154,8 +163,8 @@ class Keeping {
     std::erase_if(step.contacts, [&](PartId part) { return kept_.steps.group(part) != *group; });
     try {
       kept_.steps.add(std::move(step));
-    } catch (const std::logic_error& e) {
-      return e.what();
+    } catch (const std::logic_error& e) {  // the plan is not one that a program wrote
+      return fmt::format("it is not possible after those before it: {}", e.what());
     }
     return {};
   }
@@ -164,7 +173,8 @@ class Keeping {
     if (check.interrupted || !check.violation) return "it was not checked: the run was stopped";
     const Violation& v = *check.violation;
     if (v.uncertain)
-      return fmt::format("'{}' past '{}' could not be proved", assembly_.parts[v.part].name, assembly_.parts[v.other].name);
+      return fmt::format("'{}' past '{}' could not be proved", assembly_.parts[v.part].name,
+                         assembly_.parts[v.other].name);
     return fmt::format("'{}' cuts {:.3g} into '{}'", assembly_.parts[v.part].name,
                        (v.depth - v.allowed) / assembly_.normalization.scale, assembly_.parts[v.other].name);
   }
@@ -179,6 +189,7 @@ class Keeping {
   }
 
   const Assembly& assembly_;
+  const Constraints& constraints_;
   const Verifier& verifier_;
   const RunContext& context_;
   StraightPaths straight_;
@@ -197,8 +208,9 @@ std::vector<PartRevision> revised_parts(const Assembly& before, const Assembly& 
   return Comparison(before, now).revisions();
 }
 
-KeptSteps kept_steps(const Plan& plan, const Assembly& now, const Verifier& verifier, const RunContext& context) {
-  return Keeping(now, verifier, context).run(plan);
+KeptSteps kept_steps(const Plan& plan, const Assembly& now, const Constraints& constraints, const Verifier& verifier,
+                     const RunContext& context) {
+  return Keeping(now, constraints, verifier, context).run(plan);
 }
 
 }  // namespace dismantle

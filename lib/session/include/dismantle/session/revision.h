@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dismantle/assembly.h"
+#include "dismantle/constraints.h"
 #include "dismantle/disassembly.h"
 #include "dismantle/export.h"
 #include "dismantle/plan.h"
@@ -44,8 +45,8 @@ struct KeptSteps {
 
 /// Goes through the steps of the plan in their order and keeps each one that the verifier accepts with what is there;
 /// parts are found by name. A part that is not there any more is left out of its step; one that is new is in the way.
-/// Forced steps are not kept. Ends early when `context` wants to stop.
-DISMANTLE_API KeptSteps kept_steps(const Plan& plan, const Assembly& now, const Verifier& verifier,
-                                   const RunContext& context);
+/// Forced steps, and those that the constraints forbid, are not kept. Ends early when `context` wants to stop.
+DISMANTLE_API KeptSteps kept_steps(const Plan& plan, const Assembly& now, const Constraints& constraints,
+                                   const Verifier& verifier, const RunContext& context);
 
 }  // namespace dismantle
