@@ -1,20 +1,7 @@
 # Steps of install_test; see CMakeLists.txt for the variables. Stops at the first thing that is not as it should be.
 cmake_minimum_required(VERSION 3.25)
 
-function(run output)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE err)
-  if(NOT status EQUAL 0)
-    list(JOIN ARGN " " command)
-    message(FATAL_ERROR "${command}\nfailed with status ${status}\n${out}\n${err}")
-  endif()
-  set(${output} "${out}" PARENT_SCOPE)
-endfunction()
-
-function(expect text pattern)
-  if(NOT text MATCHES "${pattern}")
-    message(FATAL_ERROR "expected /${pattern}/ in\n${text}")
-  endif()
-endfunction()
+include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 
 unset(ENV{DISMANTLE_PLUGIN_PATH})
 file(REMOVE_RECURSE "${WORK_DIR}")

@@ -13,7 +13,8 @@
 namespace dismantle {
 
 StepRefused::StepRefused(std::string subject, std::size_t step, std::string reason)
-    : InputError(std::move(subject), fmt::format("step {} of the plan to go on from is not valid here: {}", step + 1, reason)),
+    : InputError(std::move(subject),
+                 fmt::format("step {} of the plan to go on from is not valid here: {}", step + 1, reason)),
       step_(step),
       reason_(std::move(reason)) {}
 
@@ -61,8 +62,8 @@ DisassemblyStep disassembly_step(const PlanStep& from, const Assembly& assembly)
   };
   std::vector<std::pair<PartId, const PlanMove*>> moves;
   for (const PlanMove& move : from.moves) {
-    const auto part = std::find_if(assembly.parts.begin(), assembly.parts.end(),
-                                   [&](const Part& p) { return p.name == move.part; });
+    const auto part =
+        std::find_if(assembly.parts.begin(), assembly.parts.end(), [&](const Part& p) { return p.name == move.part; });
     if (part == assembly.parts.end()) fail(fmt::format("moves '{}', which the assembly does not have", move.part));
     moves.emplace_back(part->id, &move);
   }

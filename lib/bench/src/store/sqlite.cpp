@@ -5,7 +5,11 @@
 #include "dismantle/errors.h"
 
 namespace dismantle::bench {
-namespace {}  // namespace
+namespace {
+
+constexpr int kPatience = 60'000, kPause = 10;  // ms to wait for another writer, and between two tries
+
+}  // namespace
 
 Sqlite::Sqlite(const std::filesystem::path& file, Mode mode) : name_(file.string()) {
   const int flags = mode == Mode::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
@@ -15,7 +19,7 @@ Sqlite::Sqlite(const std::filesystem::path& file, Mode mode) : name_(file.string
     sqlite3_close(db_);
     throw InputError(name_, "cannot be opened as a database: " + why);
   }
-  sqlite3_busy_timeout(db_, 60'000);  // ms to wait for another writer
+  sqlite3_busy_timeout(db_, kPatience);
   // A database may come from an untrusted source: its schema must not call functions with side effects, nor write to
   // internal tables.
   sqlite3_db_config(db_, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
@@ -34,12 +38,11 @@ void Sqlite::run(const std::string& sql) {
 }
 
 void Sqlite::write_ahead() {
-  constexpr int kWait = 10, kTries = 6000;  // ms; as long as the timeout above
-  for (int tries = 0;; ++tries) {
+  for (int waited = 0;; waited += kPause) {
     const int status = sqlite3_exec(db_, "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr);
     if (status == SQLITE_OK) return;
-    if (status != SQLITE_BUSY || tries == kTries) fail("the database refuses");
-    sqlite3_sleep(kWait);
+    if (status != SQLITE_BUSY || waited >= kPatience) fail("the database refuses");
+    sqlite3_sleep(kPause);
   }
 }
 

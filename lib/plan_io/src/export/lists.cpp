@@ -98,18 +98,25 @@ class Items {
   std::vector<Item> items_;
 };
 
-/// Numbers of the assembly steps that have to come before: those whose disassembly step waits for this one.
-std::string waits_for(const Plan& plan, std::size_t index) {
-  std::string out;
+/// By disassembly step: the assembly steps that have to come before, which are those whose disassembly waits for it.
+std::vector<std::string> waits_for(const Plan& plan) {
   const std::size_t steps = plan.disassembly.size();
-  const unsigned own = plan.disassembly[index].step;
+  std::map<unsigned, std::size_t> index;
+  for (std::size_t k = 0; k < steps; ++k) index.emplace(plan.disassembly[k].step, k);
+  std::vector<std::string> out(steps);
   for (std::size_t k = steps; k-- > 0;) {
-    const PlanStep& step = plan.disassembly[k];
-    if (step.layer == 0) return "unknown";
-    if (std::ranges::find(step.after, own) != step.after.end())
-      out += fmt::format("{}{}", out.empty() ? "" : ";", steps - k);
+    if (plan.disassembly[k].layer == 0) return std::vector<std::string>(steps, "unknown");
+    for (const unsigned before : plan.disassembly[k].after) {
+      const auto known = index.find(before);
+      if (known == index.end())
+        throw InputError(plan.assembly.source,
+                         fmt::format("step {} of the plan waits for step {}, which it does not have",
+                                     plan.disassembly[k].step, before));
+      std::string& list = out[known->second];
+      list += fmt::format("{}{}", list.empty() ? "" : ";", steps - k);
+    }
   }
-  return plan.disassembly[index].layer == 0 ? "unknown" : out;
+  return out;
 }
 
 }  // namespace
@@ -133,6 +140,7 @@ std::string steps_csv(const Plan& plan, const InputFrame& frame) {
   const double size = a.box.empty() ? 1 : std::max(a.box.size().maxCoeff(), 1e-300);
   const Eigen::Vector3d middle = a.box.empty() ? a.center : a.box.center();
   std::string out = "step,parts,motion,x,y,z,travel,turn_degrees,unit,waits_for,forced_depth,notes\n";
+  const std::vector<std::string> waits = waits_for(plan);
   for (std::size_t k = plan.disassembly.size(); k-- > 0;) {
     const PlanStep& step = plan.disassembly[k];
     std::vector<std::string> parts, notes;
@@ -154,7 +162,7 @@ std::string steps_csv(const Plan& plan, const InputFrame& frame) {
       turn = figure_text(summary.turn * 180 / std::numbers::pi);
     }
     out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", plan.disassembly.size() - k, csv_field(listed(parts)),
-                       csv_field(motion), direction, travel, turn, unit.name, waits_for(plan, k),
+                       csv_field(motion), direction, travel, turn, unit.name, waits[k],
                        step.forced ? figure_text(unit.factor * step.forced->depth) : "", csv_field(listed(notes)));
   }
   return out;
