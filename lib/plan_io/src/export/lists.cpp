@@ -82,9 +82,7 @@ class Items {
       const PartId id = id_of(part.name);
       if (done[id]) continue;
       const auto [it, fresh] = item_of_shape.try_emplace(shapes[id].original, items_.size());
-      if (fresh)
-        items_.push_back(
-            {part.product.empty() ? part.name : part.product, part.kind.value_or(PartKind{}), input_box(id)});
+      if (fresh) items_.push_back({part.name, part.kind.value_or(PartKind{}), input_box(id)});
       Item& item = items_[it->second];
       ++item.count;
       item.parts.push_back(part.name);
