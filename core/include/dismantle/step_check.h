@@ -48,6 +48,7 @@ struct StepCheckTraits {
   /// False: StepQuestion::present, or StepQuestion::path, has no influence on the verdict. Costs are then known before
   /// an order is, which makes the bound of the cost of all orders better.
   bool reads_present = true, reads_path = true;
+  bool estimates = false;  ///< estimate() may differ from judge()
 };
 
 /// Judges steps. The same question has the same verdict on any thread and at any time. const functions may be called
@@ -57,6 +58,9 @@ class DISMANTLE_API StepCheck {
   virtual ~StepCheck();
   virtual StepCheckTraits traits() const noexcept = 0;
   virtual StepVerdict judge(const StepQuestion& question, const RunContext& context) const = 0;
+  /// What a search asks, for many steps of which few are taken: a check whose judge() takes more than a millisecond
+  /// answers with an approximation, and says so in its traits. The plan states what judge() says.
+  virtual StepVerdict estimate(const StepQuestion& question, const RunContext& context) const;
   /// Judges a plan as a whole, for checks that say so in their traits. `operations` are in the order of assembly.
   virtual StepVerdict judge_plan(std::span<const StepQuestion> operations, const RunContext& context) const;
 };
@@ -83,6 +87,8 @@ struct DISMANTLE_API Objective {
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit; how the assembly lies
   bool empty() const { return items.empty(); }
   ObjectiveVerdict judge(const StepQuestion& question, const RunContext& context) const;
+  /// The same by StepCheck::estimate().
+  ObjectiveVerdict estimate(const StepQuestion& question, const RunContext& context) const;
 };
 
 /// A removal as an assembly operation. `path`: of the removal, columns as `moved`; the parts start from `moved`.

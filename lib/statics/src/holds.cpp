@@ -23,11 +23,27 @@ Pile held(Pile pile, const Group& bodies) {
   return pile;
 }
 
-/// The verdict of `group` when everything outside of it is held.
+/// The verdict of `group` when everything outside of it is held, which is one fixed body then.
 Verdict verdict_alone(const Pile& pile, const Group& group, const Stop& stop) {
-  Pile alone = pile;
-  for (std::uint32_t i = 0; i < alone.bodies.size(); ++i)
-    if (!contains(group, i)) alone.bodies[i].fixed = true;
+  Pile alone;
+  alone.down = pile.down;
+  constexpr std::uint32_t kHeld = 0;
+  alone.bodies.push_back({0, Eigen::Vector3d::Zero(), 1, true});
+  std::vector<std::uint32_t> number(pile.bodies.size(), kHeld);
+  for (const std::uint32_t i : group) {
+    number[i] = static_cast<std::uint32_t>(alone.bodies.size());
+    alone.bodies.push_back(pile.bodies[i]);
+  }
+  for (Contact c : pile.contacts) {
+    c.a = number[c.a];
+    c.b = number[c.b];
+    if (c.a != kHeld || c.b != kHeld) alone.contacts.push_back(std::move(c));
+  }
+  for (Push p : pile.pushes)
+    if (number[p.body] != kHeld) {
+      p.body = number[p.body];
+      alone.pushes.push_back(p);
+    }
   return judge(alone, stop).verdict;
 }
 
@@ -94,6 +110,7 @@ Group minimum_hitting_set(const std::vector<Group>& groups) {
 }
 
 std::vector<Group> moving_groups(const Pile& pile, const Motions& motion) {
+  if (motion.empty()) return {};  // how it moves is not known
   std::vector<double> size(motion.size());
   double most = 0;
   for (std::size_t i = 0; i < motion.size(); ++i) {
@@ -117,8 +134,15 @@ Holds least_holds(const Pile& pile, const Stop& stop) {
   bool exact = true;
   const auto add = [&](Group group) {
     result.groups.push_back(smallest(pile, std::move(group), stop));
+    // Of hitting sets of the same size, one of large bodies: these are easy to reach and to grip.
+    std::stable_sort(result.groups.back().begin(), result.groups.back().end(), [&](std::uint32_t a, std::uint32_t b) {
+      return pile.bodies[a].radius > pile.bodies[b].radius;
+    });
     exact = exact && verdict_alone(pile, result.groups.back(), stop) == Verdict::falls;
   };
+  // Bodies that nothing holds: found at once, and most groups are of this kind.
+  for (std::uint32_t i = 0; i < pile.bodies.size() && !(stop && stop()); ++i)
+    if (!pile.bodies[i].fixed && verdict_alone(pile, {i}, stop) == Verdict::falls) result.groups.push_back({i});
   for (int round = 0; round < kRounds && !(stop && stop()); ++round) {
     result.held = minimum_hitting_set(result.groups);
     const Judgement found = judge(held(pile, result.held), stop);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bonds.h"
 #include "dismantle/geometry/length_unit.h"
 #include "dismantle/statics/balance.h"
 
@@ -17,18 +18,6 @@ using Stop = std::function<bool()>;
 constexpr double kFrictions[] = {0.2, 0.3, 0.4, 0.5, 0.6};
 constexpr std::size_t kMostPushed = 60;  // parts: sixteen directions for each of them
 
-/// The pair holds together without gravity: pressed, clipped, screwed. `gap`: an overlap of that depth is still
-/// touching.
-bool bonded(const Assembly& assembly, PartId a, PartId b, double gap) {
-  if (const InitialOverlap* o = assembly.overlap_of(a, b); o != nullptr && o->place) {
-    const ContactClass contact = o->place->contact;
-    if (contact == ContactClass::uniform_interference && o->place->axis) return true;  // around an axis
-    if (o->depth > gap && contact != ContactClass::clearance && contact != ContactClass::kissing) return true;
-  }
-  const auto fastens = [](const Part& p) { return p.kind && (p.kind->kind == "screw" || p.kind->kind == "nut"); };
-  return fastens(assembly.parts[a]) || fastens(assembly.parts[b]);
-}
-
 /// Contacts of all pairs whose boxes are near, in the input's units.
 void add_contacts(const Assembly& assembly, const std::vector<Shape>& shapes, const StabilityOptions& options,
                   double touching, Pile& pile) {
@@ -40,8 +29,10 @@ void add_contacts(const Assembly& assembly, const std::vector<Shape>& shapes, co
   for (std::uint32_t a = 0; a < shapes.size(); ++a)
     for (std::uint32_t b = a + 1; b < shapes.size(); ++b) {
       if (!boxes[a].overlaps(boxes[b])) continue;
-      const bool bond = bonded(assembly, a, b, touching * std::min(shapes[a].radius(), shapes[b].radius()));
-      for (Contact& c : contacts_between({&shapes[a], {}}, {&shapes[b], {}}, touching)) {
+      const bool bond = is_bonded(assembly, a, b, touching * std::min(shapes[a].radius(), shapes[b].radius()));
+      const InitialOverlap* overlap = assembly.overlap_of(a, b);
+      for (Contact& c : pair_contacts({&shapes[a], {}}, {&shapes[b], {}}, touching, bond,
+                                      overlap == nullptr ? 0 : overlap->depth)) {
         c.a = a;
         c.b = b;
         c.friction = options.friction;

@@ -49,7 +49,7 @@ Segment::Segment(OrderScene& scene, std::vector<PlacedPart> start, std::vector<c
   }
   for (const ObjectiveItem& item : scene_.query.objective.items) {
     items_.push_back({&item, item.check->traits(), {}});
-    exact_ = exact_ && !items_.back().traits.reads_path;
+    exact_ = exact_ && !items_.back().traits.reads_path && !items_.back().traits.estimates;
   }
   add_units(planned);
   add_moves(planned);
@@ -335,7 +335,7 @@ double Segment::judge(const Item& item, VariantId v, const UnitSet& rest, Varian
   try {
     StepVerdict verdict;
     if (previous == kNone) {
-      verdict = item.item->check->judge(question, scene_.context);
+      verdict = item.item->check->estimate(question, scene_.context);
     } else {
       const Move& earlier = moves_[variants_[previous].move];
       const std::vector<PlacedPart> put_in = moving_of(earlier);
@@ -344,7 +344,7 @@ double Segment::judge(const Item& item, VariantId v, const UnitSet& rest, Varian
                                 nullptr};
       StepQuestion with = question;
       with.previous = &before;
-      verdict = item.item->check->judge(with, scene_.context);
+      verdict = item.item->check->estimate(with, scene_.context);
     }
     if (!(verdict.cost >= 0)) throw CheckFailed("its cost is not a number from 0 on");
     return item.item->require && !verdict.allowed ? kForbidden : verdict.cost;

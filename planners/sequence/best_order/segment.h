@@ -72,7 +72,7 @@ class Segment final : public Problem {
   double most_preference() const;
   /// The motion of the variant is not possible while these parts are there, whatever the sweeps said. Empty: never.
   void forbid(VariantId v, const std::vector<PartId>& blocked_by);
-  /// False: a check reads the path, of which cost() knows only an estimate.
+  /// False: cost() is an estimate, because a check reads the path, or gives estimates.
   bool exact() const { return exact_; }
   /// The sweeps did not suffice, and what is not known was taken to be in the way.
   bool unsure() const { return unsure_; }

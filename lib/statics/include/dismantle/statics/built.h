@@ -1,0 +1,82 @@
+/// Piles of what has been built: some parts of an assembly, wherever they are.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "dismantle/assembly.h"
+#include "dismantle/disassembly.h"
+#include "dismantle/export.h"
+#include "dismantle/statics/contacts.h"
+#include "dismantle/statics/stability.h"
+
+namespace dismantle::statics {
+
+/// A pile of placed parts. Parts that are bonded, directly or through others, are one body.
+struct BuiltPile {
+  Pile pile;                           ///< weights in newton, lengths in assembly units; the last body is the table
+  std::vector<std::uint32_t> body_of;  ///< by index into the parts that were given
+};
+
+/// Makes piles of the parts of one assembly. Contacts of parts that lie to each other as assembled are kept. Functions
+/// may be called from several threads.
+class DISMANTLE_API BuiltPiles {
+ public:
+  /// Keeps the meshes, not the assembly. Options: `fixed`, `friction`, `density`, `mass`, `touching`.
+  BuiltPiles(const Assembly& assembly, StabilityOptions options);
+  ~BuiltPiles();
+
+  /// True for the assembly it was made of, and for copies of it.
+  bool is_of(const Assembly& assembly) const;
+
+  /// `parts` in ascending order of ids. The table has the unit normal `up` and touches the lowest point; `table` false:
+  /// there is none.
+  BuiltPile pile(std::span<const PlacedPart> parts, const Eigen::Vector3d& up, bool table = true) const;
+
+  /// Adds to the pile of `parts` what a hand does that presses `moving` onto them: `share` times the weight of `moving`
+  /// along `direction`, on the contacts that stop it, or, if there is none, on those that lie along it, by friction.
+  void press(BuiltPile& built, std::span<const PlacedPart> parts, std::span<const PlacedPart> moving,
+             const Eigen::Vector3d& direction, double share) const;
+
+  /// Does `moving`, as one rigid body, stand on the others and on the table if these do not move?
+  bool stands_alone(std::span<const PlacedPart> moving, std::span<const PlacedPart> others,
+                    const Eigen::Vector3d& up) const;
+
+ private:
+  struct Neighbour {
+    PartId part;
+    bool bonded;
+    double overlap;  // depth, as assembled
+  };
+  const Neighbour* neighbour(PartId a, PartId b) const;
+  const Shape& shape(PartId part) const;
+  double height(const PlacedPart& part, const Eigen::Vector3d& up) const;
+  Body body(const PlacedPart& part) const;
+  /// Contacts of a on b; Contact::a and b are not set.
+  std::vector<Contact> contacts(const PlacedPart& a, const PlacedPart& b) const;
+  bool bonded(PartId a, PartId b) const;
+  bool stands_on(std::span<const PlacedPart> unit, std::span<const PlacedPart> near, const Eigen::Vector3d& up,
+                 double table) const;
+  void add_table(std::span<const PlacedPart> parts, double lowest, const Eigen::Vector3d& up, BuiltPile& built) const;
+
+  StabilityOptions options_;
+  double newton_ = 1;  // of a volume of 1 with a density of 1 g/cm3
+  double size_ = 1;
+  std::vector<std::shared_ptr<const Mesh>> meshes_;
+  std::vector<Aabb> boxes_;
+  std::vector<double> volumes_;
+  std::vector<bool> fasteners_;
+  std::vector<std::vector<Neighbour>> neighbours_;  // by part: those whose boxes are near, ascending
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<const Shape>> shapes_;
+  mutable std::map<std::pair<PartId, PartId>, std::vector<Contact>> contacts_;  // as assembled
+  mutable std::map<std::vector<double>, bool> alone_;
+};
+
+}  // namespace dismantle::statics

@@ -1,0 +1,295 @@
+#include "dismantle/statics/built.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "bonds.h"
+#include "dismantle/geometry/disjoint_sets.h"
+#include "dismantle/geometry/length_unit.h"
+#include "dismantle/geometry/swept_boxes.h"
+
+namespace dismantle::statics {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+
+constexpr double kSamePose = 1e-9;  // of the size of the assembly, and in radians
+constexpr double kSeat = 0.3;          // cosine: a contact that stops a motion; otherwise it lies along it
+constexpr double kAlmostNoWeight = 1e-6;  // kg, of a part without a volume
+
+/// How a lies to b.
+Pose relative(const PlacedPart& a, const PlacedPart& b) { return b.pose.inverse() * a.pose; }
+
+}  // namespace
+
+BuiltPiles::BuiltPiles(const Assembly& assembly, StabilityOptions options) : options_(std::move(options)) {
+  const std::size_t count = assembly.parts.size();
+  options_.fixed.resize(count, false);
+  options_.mass.resize(count);
+  if (options_.density.empty())
+    for (const Part& p : assembly.parts) options_.density.push_back(p.density.value_or(1));
+  newton_ = 1000 * std::pow(metres_in(assembly.unit.empty() ? "mm" : assembly.unit) / assembly.normalization.scale, 3) *
+            kGravity;
+  Aabb all;
+  for (const Part& p : assembly.parts) {
+    meshes_.push_back(p.mesh);
+    volumes_.push_back(p.volume);
+    fasteners_.push_back(is_fastener(p));
+    boxes_.push_back(p.mesh->box());
+    all.extend(boxes_.back());
+  }
+  size_ = count == 0 ? 1 : all.size().norm();
+  shapes_.resize(count);
+  neighbours_.resize(count);
+  for (PartId a = 0; a < count; ++a)
+    for (PartId b = a + 1; b < count; ++b) {
+      const double gap = options_.touching * std::min(boxes_[a].size().norm(), boxes_[b].size().norm());
+      Aabb near = boxes_[a];
+      near.inflate(gap);
+      if (!near.overlaps(boxes_[b])) continue;
+      const bool bond = is_bonded(assembly, a, b, gap / 2);
+      const InitialOverlap* overlap = assembly.overlap_of(a, b);
+      const double depth = overlap == nullptr ? 0 : overlap->depth;
+      neighbours_[a].push_back({b, bond, depth});
+      neighbours_[b].push_back({a, bond, depth});
+    }
+}
+
+BuiltPiles::~BuiltPiles() = default;
+
+bool BuiltPiles::is_of(const Assembly& assembly) const {
+  return std::equal(meshes_.begin(), meshes_.end(), assembly.parts.begin(), assembly.parts.end(),
+                    [](const auto& mesh, const Part& p) { return mesh == p.mesh; });
+}
+
+const Shape& BuiltPiles::shape(PartId part) const {
+  if (!shapes_[part]) shapes_[part] = std::make_unique<const Shape>(*meshes_[part]);
+  return *shapes_[part];
+}
+
+double BuiltPiles::height(const PlacedPart& part, const Vec3& up) const {
+  const Vec3 own = part.pose.q.conjugate() * up;
+  int axis = 0;
+  if (own.cwiseAbs().maxCoeff(&axis) > 1 - 1e-15) {
+    const Aabb& box = boxes_[part.part];
+    return up.dot(part.pose.t) + (own[axis] > 0 ? box.lo[axis] : -box.hi[axis]);
+  }
+  return lowest({&shape(part.part), part.pose}, up);
+}
+
+Body BuiltPiles::body(const PlacedPart& part) const {
+  const Shape& s = shape(part.part);
+  double weight = options_.density[part.part] * newton_ * (s.volume() > 0 ? s.volume() : volumes_[part.part]);
+  if (options_.mass[part.part]) weight = *options_.mass[part.part] * kGravity;
+  if (!(weight > 0)) weight = kAlmostNoWeight * kGravity;
+  return {weight, part.pose * s.center(), s.radius(), static_cast<bool>(options_.fixed[part.part])};
+}
+
+const BuiltPiles::Neighbour* BuiltPiles::neighbour(PartId a, PartId b) const {
+  const auto& near = neighbours_[a];
+  const auto at =
+      std::lower_bound(near.begin(), near.end(), b, [](const Neighbour& n, PartId id) { return n.part < id; });
+  return at != near.end() && at->part == b ? &*at : nullptr;
+}
+
+bool BuiltPiles::bonded(PartId a, PartId b) const {
+  const Neighbour* near = neighbour(a, b);
+  return near != nullptr ? near->bonded : fasteners_[a] || fasteners_[b];
+}
+
+std::vector<Contact> BuiltPiles::contacts(const PlacedPart& a, const PlacedPart& b) const {
+  const Neighbour* near = neighbour(a.part, b.part);
+  const bool bond = bonded(a.part, b.part);
+  const Pose to_b = relative(a, b);
+  std::vector<Contact> result;
+  if (to_b.t.norm() > kSamePose * size_ || to_b.q.vec().norm() > kSamePose) {
+    result = pair_contacts({&shape(a.part), a.pose}, {&shape(b.part), b.pose}, options_.touching, bond, 0);
+  } else {
+    const std::pair<PartId, PartId> key(a.part, b.part);
+    auto known = contacts_.find(key);
+    if (known == contacts_.end()) known = contacts_
+                  .emplace(key, pair_contacts({&shape(a.part), {}}, {&shape(b.part), {}}, options_.touching, bond,
+                                              near == nullptr ? 0 : near->overlap))
+                  .first;
+    result = known->second;
+    for (Contact& c : result) {
+      c.normal = b.pose.q * c.normal;
+      for (Vec3& p : c.points) p = b.pose * p;
+    }
+  }
+  for (Contact& c : result) c.friction = options_.friction;
+  return result;
+}
+
+void BuiltPiles::add_table(std::span<const PlacedPart> parts, double lowest, const Vec3& up, BuiltPile& built) const {
+  const std::uint32_t table = static_cast<std::uint32_t>(built.pile.bodies.size() - 1);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (height(parts[i], up) > lowest + options_.touching * shape(parts[i].part).radius()) continue;
+    Contact c = contact_with_table({&shape(parts[i].part), parts[i].pose}, up, lowest, options_.touching);
+    if (c.points.empty()) continue;
+    c.a = built.body_of[i];
+    c.b = table;
+    c.friction = options_.friction;
+    built.pile.contacts.push_back(std::move(c));
+  }
+}
+
+BuiltPile BuiltPiles::pile(std::span<const PlacedPart> parts, const Vec3& up, bool table) const {
+  const std::lock_guard lock(mutex_);
+  const std::size_t count = parts.size();
+  std::vector<Aabb> boxes;
+  for (const PlacedPart& p : parts) {
+    boxes.push_back(geometry::box_under(boxes_[p.part], p.pose));
+    boxes.back().inflate(options_.touching * boxes.back().size().norm());
+  }
+  struct Found {
+    std::size_t a, b;
+    std::vector<Contact> contacts;
+  };
+  std::vector<Found> found;
+  DisjointSets rigid(count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = i + 1; j < count; ++j) {
+      if (!boxes[i].overlaps(boxes[j])) continue;
+      std::vector<Contact> own = contacts(parts[i], parts[j]);
+      if (own.empty()) continue;
+      if (bonded(parts[i].part, parts[j].part))
+        rigid.join(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+      else
+        found.push_back({i, j, std::move(own)});
+    }
+  BuiltPile built;
+  built.pile.down = -up;
+  std::map<std::uint32_t, std::uint32_t> number;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto [at, is_new] = number.try_emplace(rigid.root(i), static_cast<std::uint32_t>(number.size()));
+    built.body_of.push_back(at->second);
+    const Body own = body(parts[i]);
+    if (is_new) {
+      built.pile.bodies.push_back(own);
+      continue;
+    }
+    Body& all = built.pile.bodies[at->second];
+    const Vec3 center = (all.weight * all.center + own.weight * own.center) / (all.weight + own.weight);
+    all.radius = std::max(all.radius + (all.center - center).norm(), own.radius + (own.center - center).norm());
+    all.center = center;
+    all.weight += own.weight;
+    all.fixed = all.fixed || own.fixed;
+  }
+  built.pile.bodies.push_back({0, Vec3::Zero(), 1, true});
+  for (Found& f : found)
+    for (Contact& c : f.contacts) {
+      c.a = built.body_of[f.a];
+      c.b = built.body_of[f.b];
+      if (c.a != c.b) built.pile.contacts.push_back(std::move(c));
+    }
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const PlacedPart& p : parts) lowest = std::min(lowest, height(p, up));
+  if (table) add_table(parts, lowest, up, built);
+  return built;
+}
+
+void BuiltPiles::press(BuiltPile& built, std::span<const PlacedPart> parts, std::span<const PlacedPart> moving,
+                       const Vec3& direction, double share) const {
+  const std::lock_guard lock(mutex_);
+  struct Touch {
+    std::size_t part;
+    Contact contact;
+  };
+  std::vector<Touch> seats, sides;
+  double weight = 0;
+  for (const PlacedPart& m : moving) {
+    weight += body(m).weight;
+    Aabb box = geometry::box_under(boxes_[m.part], m.pose);
+    box.inflate(options_.touching * box.size().norm());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (!box.overlaps(geometry::box_under(boxes_[parts[i].part], parts[i].pose))) continue;
+      for (Contact& c : contacts(m, parts[i])) {
+        const double against = -c.normal.dot(direction);  // the normal points into `moving`
+        if (against > kSeat)
+          seats.push_back({i, std::move(c)});
+        else if (against > -kSeat)
+          sides.push_back({i, std::move(c)});
+      }
+    }
+  }
+  const std::vector<Touch>& carrying = seats.empty() ? sides : seats;
+  double all = 0;
+  for (const Touch& t : carrying) all += static_cast<double>(t.contact.points.size());
+  for (const Touch& t : carrying) {
+    const double count = static_cast<double>(t.contact.points.size());
+    Vec3 center = Vec3::Zero();
+    for (const Vec3& p : t.contact.points) center += p / count;
+    built.pile.pushes.push_back({built.body_of[t.part], center, share * weight * count / all * direction});
+  }
+}
+
+bool BuiltPiles::stands_alone(std::span<const PlacedPart> moving, std::span<const PlacedPart> others,
+                              const Vec3& up) const {
+  const std::lock_guard lock(mutex_);
+  const PlacedPart& first = moving.front();
+  const auto as_assembled = [&](const PlacedPart& p) {
+    const Pose r = relative(p, first);
+    return r.t.norm() <= kSamePose * size_ && r.q.vec().norm() <= kSamePose;
+  };
+  double lowest = std::numeric_limits<double>::infinity(), own = lowest;
+  for (const PlacedPart& p : moving) own = std::min(own, height(p, up));
+  bool in_place = std::all_of(moving.begin(), moving.end(), as_assembled);
+  std::vector<PlacedPart> unit(moving.begin(), moving.end()), near;
+  for (const PlacedPart& p : others) {
+    lowest = std::min(lowest, height(p, up));
+    const bool in_its_place = as_assembled(p);
+    in_place = in_place && in_its_place;
+    if (!in_its_place || std::any_of(unit.begin(), unit.end(), [&](const PlacedPart& m) { return neighbour(m.part, p.part) != nullptr; }))
+      near.push_back(p);
+  }
+  const double above = std::max(0.0, own - lowest);
+  if (!in_place) return stands_on(unit, near, up, own - above);
+  // The answer is kept. It is found in the frame of the assembly, so that it does not depend on who asks first.
+  const Vec3 own_up = first.pose.q.conjugate() * up;
+  std::vector<double> key{own_up.x(), own_up.y(), own_up.z(), above};
+  for (PlacedPart& p : unit) {
+    p.pose = {};
+    key.push_back(p.part);
+  }
+  key.push_back(-1);
+  for (PlacedPart& p : near) {
+    p.pose = {};
+    key.push_back(p.part);
+  }
+  const auto known = alone_.find(key);
+  if (known != alone_.end()) return known->second;
+  double bottom = std::numeric_limits<double>::infinity();
+  for (const PlacedPart& p : unit) bottom = std::min(bottom, height(p, own_up));
+  return alone_.emplace(std::move(key), stands_on(unit, near, own_up, bottom - above)).first->second;
+}
+
+bool BuiltPiles::stands_on(std::span<const PlacedPart> unit, std::span<const PlacedPart> near, const Vec3& up,
+                           double table) const {
+  Body whole{0, Vec3::Zero(), 0, false};
+  std::vector<Body> bodies;
+  for (const PlacedPart& p : unit) {
+    bodies.push_back(body(p));
+    const Body& b = bodies.back();
+    if (b.fixed) return true;
+    whole.center = (whole.weight * whole.center + b.weight * b.center) / (whole.weight + b.weight);
+    whole.weight += b.weight;
+  }
+  for (const Body& b : bodies) whole.radius = std::max(whole.radius, b.radius + (b.center - whole.center).norm());
+  BuiltPile built{{{whole, {0, Vec3::Zero(), 1, true}}, {}, -up}, std::vector<std::uint32_t>(unit.size(), 0)};
+  for (const PlacedPart& p : unit)
+    for (const PlacedPart& other : near)
+      for (Contact& c : contacts(p, other)) {
+        if (bonded(p.part, other.part)) return true;
+        c.a = 0;
+        c.b = 1;
+        built.pile.contacts.push_back(std::move(c));
+      }
+  add_table(unit, table, up, built);
+  return judge(built.pile).verdict == Verdict::stands;
+}
+
+}  // namespace dismantle::statics

@@ -1,0 +1,264 @@
+#include "gravity.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "dismantle/part_set.h"
+#include "dismantle/statics/describe.h"
+#include "dismantle/statics/holds.h"
+
+namespace dismantle::checks {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Vec3 = Eigen::Vector3d;
+
+constexpr double kPush = 2;         // times its weight: what a hand presses a part in with
+constexpr double kSameUp = 1e-9;    // 1 - cosine
+constexpr double kOverturn = -0.7;  // cosine: over two sides
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t to = std::min(text.find(',', from), text.size());
+    const std::size_t first = text.find_first_not_of(' ', from), last = text.find_last_not_of(' ', to == 0 ? 0 : to - 1);
+    if (first < to && last != std::string::npos && last >= first) words.push_back(text.substr(first, last - first + 1));
+    from = to + 1;
+  }
+  return words;
+}
+
+bool matches(const std::string& name, const std::string& pattern) {
+  return name == pattern || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
+
+std::vector<PlacedPart> joined(std::span<const PlacedPart> a, std::span<const PlacedPart> b) {
+  std::vector<PlacedPart> all(a.begin(), a.end());
+  all.insert(all.end(), b.begin(), b.end());
+  std::sort(all.begin(), all.end(), [](const PlacedPart& x, const PlacedPart& y) { return x.part < y.part; });
+  return all;
+}
+
+std::string quoted(const Assembly& assembly, PartId part) { return "'" + assembly.parts[part].name + "'"; }
+
+std::string list_of(const Assembly& assembly, const std::vector<PartId>& parts) {
+  std::vector<std::string> names;
+  for (const PartId p : parts) names.push_back(quoted(assembly, p));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// An orientation halfway between two; over one side, always the same one, if they are opposite.
+Vec3 halfway(const Vec3& a, const Vec3& b) {
+  const Vec3 sum = a + b;
+  return a.dot(b) < kOverturn ? Vec3(a.unitOrthogonal()) : Vec3(sum.normalized());
+}
+
+}  // namespace
+
+void GravityParams::describe(Schema<GravityParams>& s) {
+  s.add("fixed", &GravityParams::fixed,
+        {.doc = "Parts that a fixture holds all the time: names or patterns with * and ?, with commas between them."});
+  s.add("hands", &GravityParams::hands,
+        {.unit = "1",
+         .min = 1,
+         .max = 100,
+         .doc = "Hands that there are, the one with the part that is put in included. A step that needs more is not "
+                "allowed, and the plan asks for a fixture."});
+  s.add("friction", &GravityParams::friction,
+        {.unit = "1", .min = 0, .max = 10, .doc = "Coefficient of Coulomb friction of all contacts."});
+  s.add("density", &GravityParams::density,
+        {.doc = "Densities in g/cm3 as NAME=VALUE with commas between them; names as in `fixed`. Other parts have that "
+                "of their file, or 1."});
+  s.advanced("most_parts", &GravityParams::most_parts, {1, 100000});
+}
+
+Gravity::Gravity(const GravityParams& params) : params_(params), fixed_(words_of(params.fixed)) {
+  for (const std::string& word : words_of(params.density)) {
+    const std::size_t at = word.rfind('=');
+    std::size_t used = 0;
+    double value = 0;
+    if (at != std::string::npos && at > 0 && at + 1 < word.size()) try {
+        value = std::stod(word.substr(at + 1), &used);
+      } catch (const std::exception&) {
+        used = 0;
+      }
+    if (used == 0 || used != word.size() - at - 1 || !(value > 0) || !std::isfinite(value))
+      throw std::invalid_argument("density: write NAME=G_PER_CM3 with a number above 0 instead of '" + word + "'");
+    density_.emplace_back(word.substr(0, word.find_last_not_of(' ', at - 1) + 1), value);
+  }
+}
+
+std::shared_ptr<Gravity::Scene> Gravity::scene_of(const Assembly& assembly) const {
+  const std::lock_guard lock(mutex_);
+  if (scene_ && scene_->piles->is_of(assembly)) return scene_;
+  statics::StabilityOptions options;
+  options.friction = params_.friction;
+  for (const Part& part : assembly.parts) {
+    options.fixed.push_back(std::any_of(fixed_.begin(), fixed_.end(),
+                                        [&](const std::string& pattern) { return matches(part.name, pattern); }));
+    options.density.push_back(part.density.value_or(1));
+    for (const auto& [pattern, value] : density_)
+      if (matches(part.name, pattern)) options.density.back() = value;
+  }
+  scene_ = std::make_shared<Scene>();
+  scene_->piles = std::make_unique<const statics::BuiltPiles>(assembly, std::move(options));
+  return scene_;
+}
+
+Gravity::State Gravity::holds_of(const statics::BuiltPile& built, std::span<const PlacedPart> parts,
+                                 const Assembly& assembly, const RunContext& context) const {
+  const auto stop = [&] { return context.should_stop(); };
+  const statics::Judgement free = statics::judge(built.pile, stop);
+  State state;
+  if (free.verdict == statics::Verdict::stands) return state;
+  const statics::Holds holds = statics::least_holds(built.pile, stop);
+  state.found = holds.found;
+  state.proved = holds.proved;
+  statics::Pile held = built.pile;
+  for (const std::uint32_t body : holds.held) held.bodies[body].fixed = true;
+  const statics::Judgement with = statics::judge(held, stop);
+  for (const std::uint32_t body : holds.held) {
+    Hold hold;
+    double largest = -1;
+    for (std::size_t i = 0; i < parts.size(); ++i)  // the largest of the parts that are one body
+      if (const double v = assembly.parts[parts[i].part].volume; built.body_of[i] == body && v > largest) {
+        largest = v;
+        hold.part = parts[i].part;
+      }
+    Vec3 force = built.pile.bodies[body].weight * built.pile.down;
+    for (std::size_t k = 0; k < with.forces.size() && k < held.contacts.size(); ++k)
+      for (const Vec3& f : with.forces[k])
+        force += held.contacts[k].a == body ? f : held.contacts[k].b == body ? Vec3(-f) : Vec3(Vec3::Zero());
+    hold.newton = force.norm();
+    if (body < free.motion.size()) {
+      const statics::Motion& motion = free.motion[body];
+      if (motion.v.norm() + motion.w.norm() > 0)
+        hold.motion = statics::motion_text(built.pile.bodies[body], motion, built.pile.down);
+    }
+    state.holds.push_back(std::move(hold));
+  }
+  return state;
+}
+
+Gravity::State Gravity::at_rest(Scene& scene, const Assembly& assembly, std::span<const PlacedPart> parts,
+                                const Vec3& up, bool table, const RunContext& context) const {
+  std::vector<double> key{up.x(), up.y(), up.z(), table ? 1.0 : 0.0};
+  for (const PlacedPart& p : parts)
+    key.insert(key.end(), {static_cast<double>(p.part), p.pose.t.x(), p.pose.t.y(), p.pose.t.z(), p.pose.q.w(),
+                           p.pose.q.x(), p.pose.q.y(), p.pose.q.z()});
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = scene.known.find(key); known != scene.known.end()) return known->second;
+  }
+  State state = holds_of(scene.piles->pile(parts, up, table), parts, assembly, context);
+  if (context.should_stop()) return state;
+  const std::lock_guard lock(mutex_);
+  return scene.known.emplace(std::move(key), std::move(state)).first->second;
+}
+
+/// What the present parts need while the new one is pressed in, and while it is pulled back a little.
+Gravity::State Gravity::while_put_in(Scene& scene, const StepQuestion& question, const RunContext& context) const {
+  State worst;
+  if (question.present.empty() || question.direction.isZero()) return worst;
+  const std::vector<PlacedPart> parts = joined(question.present, {});
+  const statics::BuiltPile alone = scene.piles->pile(parts, question.up);
+  for (const double sign : {1.0, -1.0}) {
+    statics::BuiltPile pressed = alone;
+    scene.piles->press(pressed, parts, question.moving, sign * question.direction, kPush);
+    if (pressed.pile.pushes.empty()) return at_rest(scene, question.assembly, parts, question.up, true, context);
+    State state = holds_of(pressed, parts, question.assembly, context);
+    if (state.holds.size() > worst.holds.size() || !state.found) worst = std::move(state);
+  }
+  return worst;
+}
+
+StepVerdict Gravity::estimate(const StepQuestion& question, const RunContext& /*context*/) const {
+  StepVerdict verdict;
+  if (question.moving.empty() ||
+      scene_of(question.assembly)->piles->stands_alone(question.moving, question.present, question.up))
+    return verdict;
+  verdict.cost = 1;
+  verdict.reason = quoted(question.assembly, question.moving.front().part) + " has to be held: nothing is under it";
+  return verdict;
+}
+
+StepVerdict Gravity::judge(const StepQuestion& question, const RunContext& context) const {
+  const Assembly& assembly = question.assembly;
+  const std::vector<PlacedPart> all = joined(question.present, question.moving);
+  if (all.size() > static_cast<std::size_t>(params_.most_parts)) return estimate(question, context);
+  const std::shared_ptr<Scene> scene = scene_of(assembly);
+  const State after = at_rest(*scene, assembly, all, question.up, true, context);
+  const State during = while_put_in(*scene, question, context);
+  State turned;
+  if (question.previous != nullptr && !question.present.empty() &&
+      question.previous->up.dot(question.up) < 1 - kSameUp)
+    turned = at_rest(*scene, assembly, joined(question.present, {}), halfway(question.previous->up, question.up), false,
+                     context);
+  StepVerdict verdict;
+  std::set<PartId> held;
+  Json holds = Json::array();
+  const auto add = [&](const State& state, const char* when) {
+    for (const Hold& h : state.holds) {
+      held.insert(h.part);
+      holds.push_back({{"part", assembly.parts[h.part].name}, {"when", when}, {"newton", h.newton}});
+      if (!h.motion.empty()) holds.back()["motion"] = h.motion;
+    }
+  };
+  add(after, "after");
+  add(during, "during");
+  // To turn the whole, one hand holds it anyway.
+  const std::size_t turning = turned.holds.empty() ? 0 : turned.holds.size() - 1;
+  if (turning > 0) add(turned, "turning");
+  verdict.cost = static_cast<double>(held.size());
+  const bool unclear = !after.found || !during.found || !turned.found;
+  const std::size_t hands = std::max({after.holds.size(), 1 + during.holds.size(), 1 + turning});
+  const bool too_many = unclear || hands > static_cast<std::size_t>(params_.hands);
+  if (holds.empty() && !unclear) return verdict;
+  std::vector<std::string> texts;
+  for (const Hold& h : after.holds)
+    texts.push_back(h.motion.empty() ? fmt::format("Hold {}.", quoted(assembly, h.part))
+                                     : fmt::format("Hold {}: it {} otherwise.", quoted(assembly, h.part), h.motion));
+  std::vector<PartId> only_during;
+  for (const Hold& h : during.holds)
+    if (std::none_of(after.holds.begin(), after.holds.end(), [&](const Hold& a) { return a.part == h.part; }))
+      only_during.push_back(h.part);
+  if (!only_during.empty())
+    texts.push_back(fmt::format("Hold {} while {} is put in.", list_of(assembly, only_during),
+                                list_of(assembly, ids_of(question.moving))));
+  if (turning > 0) texts.push_back("Hold the parts together while the assembly is turned.");
+  if (too_many)
+    texts.push_back(unclear ? "No set of holds was found with which it stands: use a fixture."
+                            : fmt::format("This takes {} hands: use a fixture.", hands));
+  verdict.allowed = !too_many;
+  verdict.reason = unclear ? "no set of holds was found with which it stands"
+                           : fmt::format("{} part{} must be held", held.size(), held.size() == 1 ? "" : "s");
+  const Json data = {{"hold", holds}, {"hands", hands}, {"proved", after.proved && during.proved && turned.proved}};
+  verdict.notes.push_back({"gravity", fmt::format("{}", fmt::join(texts, " ")),
+                           data.dump(-1, ' ', false, Json::error_handler_t::replace)});
+  return verdict;
+}
+
+StepVerdict Gravity::judge_plan(std::span<const StepQuestion> operations, const RunContext& /*context*/) const {
+  StepVerdict verdict;
+  const auto large = std::count_if(operations.begin(), operations.end(), [&](const StepQuestion& q) {
+    return q.moving.size() + q.present.size() > static_cast<std::size_t>(params_.most_parts);
+  });
+  if (large > 0)
+    verdict.notes.push_back(
+        {"gravity.not_checked",
+         fmt::format("In {} of {} steps more than {} parts are there: only the part that is put in was judged, on "
+                     "others that do not move.",
+                     large, operations.size(), params_.most_parts)});
+  return verdict;
+}
+
+}  // namespace dismantle::checks

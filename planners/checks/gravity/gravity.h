@@ -1,0 +1,69 @@
+/// Step check: does what has been built stand, and which parts have to be held?
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dismantle/parameters.h"
+#include "dismantle/statics/built.h"
+#include "dismantle/step_check.h"
+
+namespace dismantle::checks {
+
+struct GravityParams {
+  std::string fixed{};
+  std::int64_t hands = 2;
+  double friction = 0.4;
+  std::string density{};
+  std::int64_t most_parts = 60;
+  static void describe(Schema<GravityParams>& schema);
+};
+
+/// Costs the number of parts that somebody has to hold, besides the one in hand.
+class Gravity final : public StepCheck {
+ public:
+  /// @throws std::invalid_argument for a density that cannot be read.
+  explicit Gravity(const GravityParams& params = {});
+  StepCheckTraits traits() const noexcept override {
+    return {.remembers_orientation = true, .judges_plan = true, .reads_path = false, .estimates = true};
+  }
+  StepVerdict judge(const StepQuestion& question, const RunContext& context) const override;
+  /// Does the part that is put in stand by itself if everything else stays?
+  StepVerdict estimate(const StepQuestion& question, const RunContext& context) const override;
+  /// Says whether some steps had too many parts.
+  StepVerdict judge_plan(std::span<const StepQuestion> operations, const RunContext& context) const override;
+
+ private:
+  struct Hold {
+    PartId part = 0;
+    double newton = 0;
+    std::string motion;  // without the hold; empty: not known
+  };
+  struct State {
+    std::vector<Hold> holds;
+    bool found = true, proved = true;
+  };
+  struct Scene {
+    std::unique_ptr<const statics::BuiltPiles> piles;
+    std::map<std::vector<double>, State> known;
+  };
+  std::shared_ptr<Scene> scene_of(const Assembly& assembly) const;
+  State holds_of(const statics::BuiltPile& built, std::span<const PlacedPart> parts, const Assembly& assembly,
+                 const RunContext& context) const;
+  State at_rest(Scene& scene, const Assembly& assembly, std::span<const PlacedPart> parts, const Eigen::Vector3d& up,
+                bool table, const RunContext& context) const;
+  State while_put_in(Scene& scene, const StepQuestion& question, const RunContext& context) const;
+
+  GravityParams params_;
+  std::vector<std::string> fixed_;
+  std::vector<std::pair<std::string, double>> density_;
+  mutable std::mutex mutex_;
+  mutable std::shared_ptr<Scene> scene_;  // of the assembly that was asked about last
+};
+
+}  // namespace dismantle::checks

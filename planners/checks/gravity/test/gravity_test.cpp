@@ -1,0 +1,141 @@
+#include "gravity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "dismantle/run_context.h"
+#include "dismantle/testing/shapes.h"
+
+namespace dismantle::checks {
+namespace {
+
+using Eigen::Vector3d;
+
+Mesh block(double x, double y, double z, double dx, double dy, double dz) {
+  return shapes::box({x, y, z}, {x + dx, y + dy, z + dz});
+}
+
+/// Part `moving` is put in last, from above.
+struct Scene {
+  explicit Scene(const std::vector<Mesh>& meshes) : assembly(shapes::assembly_of(meshes)) {
+    for (PartId p = 0; p < meshes.size(); ++p) (p + 1 < meshes.size() ? present : moving).push_back({p, Pose{}});
+  }
+  StepQuestion question(const Vector3d& up = Vector3d::UnitZ()) const {
+    return {assembly, moving, present, -Vector3d::UnitZ(), nullptr, up};
+  }
+  Assembly assembly;
+  std::vector<PlacedPart> present, moving;
+};
+
+TEST(Gravity, ATowerNeedsNoHands) {
+  const Scene tower({block(0, 0, 0, 2, 2, 1), block(0, 0, 1, 2, 2, 1), block(0.5, 0.5, 2, 1, 1, 1)});
+  const StepVerdict verdict = Gravity().judge(tower.question(), RunContext{});
+  EXPECT_EQ(verdict.cost, 0);
+  EXPECT_TRUE(verdict.notes.empty());
+  EXPECT_EQ(Gravity().estimate(tower.question(), RunContext{}).cost, 0);
+}
+
+TEST(Gravity, WhatHangsInTheAirIsHeld) {
+  const Scene scene({block(0, 0, 0, 2, 2, 1), block(0, 0, 2, 2, 2, 1)});
+  const StepVerdict verdict = Gravity().judge(scene.question(), RunContext{});
+  EXPECT_EQ(verdict.cost, 1);
+  ASSERT_EQ(verdict.notes.size(), 1u);
+  EXPECT_NE(verdict.notes[0].text.find("falls down"), std::string::npos) << verdict.notes[0].text;
+  EXPECT_NE(verdict.notes[0].data.find("\"proved\":true"), std::string::npos) << verdict.notes[0].data;
+  EXPECT_EQ(Gravity().estimate(scene.question(), RunContext{}).cost, 1);
+}
+
+// A beam on one block: it stands if its middle is above the block; otherwise it tips to the side of its middle.
+TEST(Gravity, ABeamTipsAboutTheEdgeOfItsSupport) {
+  Rng rng(5);
+  for (int k = 0; k < 40; ++k) {
+    const double shift = rng.uniform(-1.9, 1.9);
+    if (std::abs(std::abs(shift) - 1) < 0.05) continue;
+    const Scene scene({block(-1, -1, 0, 2, 2, 1), block(shift - 2, -1, 1, 4, 2, 1)});
+    const StepVerdict verdict = Gravity().judge(scene.question(), RunContext{});
+    ASSERT_EQ(verdict.cost, std::abs(shift) < 1 ? 0 : 1) << shift;
+    if (std::abs(shift) < 1) continue;
+    const std::string towards = shift > 0 ? "tips towards +x" : "tips towards -x";
+    EXPECT_NE(verdict.notes.at(0).text.find(towards), std::string::npos) << verdict.notes[0].text;
+  }
+}
+
+// A counterweight: the estimate, for which the rest does not move, sees nothing of it.
+TEST(Gravity, TheWholeTipsAlthoughThePartRests) {
+  const Scene scene({block(-1, -1, 0, 2, 2, 1), block(-1, -1, 1, 3.5, 2, 1), block(1.5, -1, 2, 1, 2, 3)});
+  EXPECT_EQ(Gravity().estimate(scene.question(), RunContext{}).cost, 0);
+  const StepVerdict verdict = Gravity().judge(scene.question(), RunContext{});
+  EXPECT_EQ(verdict.cost, 1);
+}
+
+// Law: the verdict does not change with the scale, nor when the whole is turned with its orientation.
+TEST(Gravity, SameVerdictWhenTurnedAndScaled) {
+  Rng rng(9);
+  unsigned stands = 0, falls = 0;
+  for (int k = 0; k < 30; ++k) {
+    const double scale = std::exp(rng.uniform(-2, 2));
+    const Eigen::Quaterniond q = Eigen::Quaterniond::UnitRandom();
+    std::vector<Mesh> meshes{block(-2, -2, 0, 4, 4, 1)}, other;
+    for (int n = 0; n < 3; ++n)
+      meshes.push_back(block(rng.uniform(-2, 0), rng.uniform(-2, 0), 1 + n, 2.5, 2.5, 1));
+    for (const Mesh& m : meshes) {
+      other.push_back(m);
+      for (Vector3d& v : other.back().vertices) v = scale * (q * v);
+    }
+    const Scene a(meshes), b(other);
+    StepQuestion turned = b.question(q * Vector3d::UnitZ());
+    turned.direction = q * -Vector3d::UnitZ();
+    const StepVerdict x = Gravity().judge(a.question(), RunContext{}), y = Gravity().judge(turned, RunContext{});
+    EXPECT_EQ(x.cost, y.cost) << k;
+    ++(x.cost == 0 ? stands : falls);
+  }
+  EXPECT_GT(stands, 4u);
+  EXPECT_GT(falls, 4u);
+}
+
+TEST(Gravity, TooFewHandsAreARefusal) {
+  const Scene scene({block(0, 0, 0, 2, 2, 1), block(5, 0, 3, 1, 1, 1), block(-5, 0, 3, 1, 1, 1), block(0, 5, 3, 1, 1, 1)});
+  const StepVerdict verdict = Gravity().judge(scene.question(), RunContext{});
+  EXPECT_EQ(verdict.cost, 3);
+  EXPECT_FALSE(verdict.allowed);
+  EXPECT_NE(verdict.notes.at(0).text.find("fixture"), std::string::npos);
+  EXPECT_TRUE(Gravity({.hands = 3}).judge(scene.question(), RunContext{}).allowed);
+}
+
+TEST(Gravity, AFixtureHoldsWhatItIsToldTo) {
+  const Scene scene({block(0, 0, 0, 2, 2, 1), block(0, 0, 2, 2, 2, 1)});
+  const std::string name = scene.assembly.parts[1].name;
+  EXPECT_EQ(Gravity({.fixed = "nothing, " + name}).judge(scene.question(), RunContext{}).cost, 0);
+}
+
+TEST(Gravity, DensitiesMoveTheCentre) {
+  // The counterweight outside of the support is heavier than the beam or not.
+  const Scene scene({block(-1, -1, 0, 2, 2, 1), block(-2, -1, 1, 4, 2, 1), block(1, -1, 2, 1, 2, 1)});
+  const std::string name = scene.assembly.parts[2].name;
+  EXPECT_EQ(Gravity({.density = name + "=0.5"}).judge(scene.question(), RunContext{}).cost, 0);
+  EXPECT_EQ(Gravity({.density = name + " = 20"}).judge(scene.question(), RunContext{}).cost, 1);
+  EXPECT_THROW(Gravity({.density = "steel"}), std::invalid_argument);
+  EXPECT_THROW(Gravity({.density = "steel=-1"}), std::invalid_argument);
+}
+
+TEST(Gravity, TurningWhatIsNotHeldTogetherTakesHands) {
+  const Scene scene({block(0, 0, 0, 2, 2, 1), block(0, 0, 1, 2, 2, 1), block(0, 0, 2, 2, 2, 1)});
+  StepQuestion before = scene.question(-Vector3d::UnitZ()), now = scene.question();
+  EXPECT_EQ(Gravity().judge(now, RunContext{}).cost, 0);
+  now.previous = &before;
+  EXPECT_GT(Gravity().judge(now, RunContext{}).cost, 0);
+}
+
+TEST(Gravity, ManyPartsAreJudgedOneByOneAndThePlanSaysSo) {
+  const Scene scene({block(-1, -1, 0, 2, 2, 1), block(-1, -1, 1, 3.5, 2, 1), block(1.5, -1, 2, 1, 2, 3)});
+  const Gravity gravity({.most_parts = 2});
+  EXPECT_EQ(gravity.judge(scene.question(), RunContext{}).cost, 0);
+  const std::vector<StepQuestion> plan{scene.question()};
+  ASSERT_EQ(gravity.judge_plan(plan, RunContext{}).notes.size(), 1u);
+  EXPECT_TRUE(Gravity().judge_plan(plan, RunContext{}).notes.empty());
+}
+
+}  // namespace
+}  // namespace dismantle::checks
