@@ -187,10 +187,14 @@ class ContentWriter {
       }
       const MotionSummary motion = summarize_motion(mover.poses, mover.center, leg_tolerance(size_));
       const std::string who = step.movers.size() > 1 ? names_of(mover.parts) + ": " : "";
-      page.motions.push_back(who + motion_words(in_unit(motion, unit_.factor), unit_.name, frame_.y_up));
+      page.motions.push_back(who + motion_words(in_unit(motion, unit_.factor), unit_.name, frame_.y_up,
+                                                      frame_.lies(step.up)));
       add_vectors(motion, who, page.facts);
     }
     if (step.movers.empty()) page.motions.emplace_back("it is apart already: nothing has to move");
+    if (step.up) {
+      page.facts.emplace_back("lies", lie_words(*step.up, frame_.y_up));
+    }
     if (index == 0 && !options_.disassembly) page.facts.emplace_back("start with", names_of(chapter.base));
     if (index == 0 && options_.disassembly && chapter.letter >= 0)
       page.facts.emplace_back("of", names_of(chapter.parts));

@@ -24,7 +24,8 @@ std::string Viewpoint::words() const {
 }
 
 Illustrator::Illustrator(const Assembly& assembly, bool y_up)
-    : assembly_(assembly), y_up_(y_up), placements_(geometry::find_congruent(assembly.parts)) {
+    : assembly_(assembly), placements_(geometry::find_congruent(assembly.parts)) {
+  frame_.y_up = y_up;
   std::set<std::array<int, 3>> different;
   for (const Part& part : assembly.parts)
     if (part.colour) different.insert({part.colour->r, part.colour->g, part.colour->b});
@@ -53,16 +54,16 @@ DrawnBody Illustrator::body_of(const PlacedPart& placed, bool marked) const {
           marked ? style_.accent : pale(colours_[placed.part]), marked};
 }
 
-Eigen::Matrix3d Illustrator::axes_of(const Viewpoint& view) const {
+Eigen::Matrix3d Illustrator::axes_of(const Viewpoint& view, const Eigen::Quaterniond& lies) const {
   // Z up, seen from -Y; then turned for input with Y up.
   const Eigen::Vector3d viewer =
       Eigen::Vector3d(view.left ? -0.62 : 0.62, view.back ? 0.78 : -0.78, view.below ? -0.62 : 0.62).normalized();
   const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(viewer).normalized();
   Eigen::Matrix3d axes;
   axes << right.transpose(), viewer.cross(right).transpose(), viewer.transpose();
-  if (!y_up_) return axes;
+  if (!frame_.y_up) return axes * lies.toRotationMatrix();
   const double half = std::numbers::sqrt2 / 2;
-  return axes * Eigen::Quaterniond(half, half, 0, 0).toRotationMatrix();  // from Y up to Z up
+  return axes * (Eigen::Quaterniond(half, half, 0, 0) * lies).toRotationMatrix();  // from Y up to Z up
 }
 
 std::vector<Eigen::Vector3d> Illustrator::corners(const std::vector<PlacedPart>& parts) const {
@@ -134,7 +135,7 @@ Viewpoint Illustrator::best_view(const BookStep& step, const std::vector<PlacedP
     for (const PlacedPart& p : movers) bodies.push_back(body_of(p, true));
     for (const PlacedPart& p : movers) alone.push_back(body_of(p, true));
     // Zoom in on the moving parts: in a picture of the whole assembly, a screw is smaller than a pixel.
-    const Camera camera = camera_for(corners(movers), axes_of(view), width, height);
+    const Camera camera = camera_for(corners(movers), axes_of(view, frame_.lies(step.up)), width, height);
     const std::size_t whole = visible_pixels(alone, camera, width, height);
     return whole == 0 ? 0.0 : double(visible_pixels(bodies, camera, width, height)) / double(whole);
   };
@@ -193,7 +194,7 @@ StepPictures Illustrator::step(const BookStep& step, bool disassembly, double sc
     for (std::size_t k = 0; k < step.movers[m].parts.size(); ++k) away[p++].pose.t += further.back();
   }
   out.view = best_view(step, away, placed);
-  const Eigen::Matrix3d axes = axes_of(out.view);
+  const Eigen::Matrix3d axes = axes_of(out.view, frame_.lies(step.up));
   const auto bodies_with = [&](const std::vector<PlacedPart>& movers) {
     std::vector<DrawnBody> bodies;
     for (const PlacedPart& p : step.standing) bodies.push_back(body_of(p, false));

@@ -9,6 +9,7 @@
 #include "dismantle/assembly.h"
 #include "dismantle/geometry/congruent_parts.h"
 #include "dismantle/plan.h"
+#include "dismantle/plan_io/input_frame.h"
 #include "instructions.h"
 #include "raster.h"
 #include "style.h"
@@ -69,7 +70,8 @@ class Illustrator {
 
  private:
   DrawnBody body_of(const PlacedPart& placed, bool marked) const;
-  Eigen::Matrix3d axes_of(const Viewpoint& view) const;
+  /// `lies`: how the assembly is turned, from how it is drawn.
+  Eigen::Matrix3d axes_of(const Viewpoint& view, const Eigen::Quaterniond& lies = Eigen::Quaterniond::Identity()) const;
   Camera camera_for(const std::vector<Eigen::Vector3d>& points, const Eigen::Matrix3d& axes, int width,
                     int height) const;
   std::vector<Eigen::Vector3d> corners(const std::vector<PlacedPart>& parts) const;
@@ -83,7 +85,7 @@ class Illustrator {
 
   const Assembly& assembly_;
   PictureStyle style_;
-  bool y_up_;
+  InputFrame frame_;
   std::vector<geometry::ShapePlacement> placements_;
   std::vector<ShadedMesh> meshes_;        // by part; empty unless it is the first part of its shape
   std::vector<Eigen::Vector3d> centers_;  // by part: origin of its mesh, input units

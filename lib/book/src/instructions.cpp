@@ -99,6 +99,7 @@ class InstructionWriter {
     const std::vector<Pose> base = poses_of(seen_from);
     BookStep out;
     out.plan_step = step.step;
+    if (step.up) out.up = base.front().q.conjugate() * *step.up;
     for (const std::size_t part : whole) {
       std::vector<Pose> poses = poses_of(part);
       for (std::size_t k = 0; k < count; ++k) poses[k] = base[k].inverse() * poses[k];

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct BookStep {
   unsigned plan_step = 0;            ///< number of the disassembly step
   std::vector<PlacedPart> standing;  ///< the parts that do not move
   std::vector<BookMover> movers;
+  std::optional<Eigen::Vector3d> up{};  ///< unit; of the assembly while it lies for this step; none: as drawn
   bool shifts_only = false;  ///< no part joins or leaves: the parts only move aside
 };
 

@@ -183,6 +183,22 @@ TEST(MotionWords, DirectionsAreThoseOfSomeoneBeforeTheAssembly) {
   EXPECT_EQ(direction_words({0, 0, 1}, true), "to the front (+Z)");
   EXPECT_EQ(direction_words({-1, 0, -1}, false), "down and left (-0.71, 0, -0.71)");
   EXPECT_THROW(direction_words({0, 0, 0}, false), Error);
+  EXPECT_EQ(lie_words({0, 0, -1}, false), "upside down (-Z up)");
+  EXPECT_EQ(lie_words({1, 0, 0}, false), "on its left side (+X up)");
+  EXPECT_EQ(lie_words({0, 1, 0}, false), "on its front (+Y up)");
+  EXPECT_EQ(lie_words({0, 0, 1}, true), "on its back (+Z up)");
+  // Law: what is put in against the upward direction of the step goes down, for any orientation.
+  for (const bool y_up : {false, true}) {
+    InputFrame frame;
+    frame.y_up = y_up;
+    Rng rng(3);
+    for (int n = 0; n < 50; ++n) {
+      Eigen::Vector3d up = Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal()).normalized();
+      if (n < 6) up = (n % 2 == 0 ? 1 : -1) * Eigen::Vector3d::Unit(n / 2);
+      const std::string words = direction_words(-up, y_up, frame.lies(up));
+      EXPECT_EQ(words.substr(0, 6), "down (") << words;
+    }
+  }
 }
 
 TEST(InputFrame, TextsUseTheUnitOfPeople) {

@@ -11,6 +11,7 @@ namespace {
 
 using Group = std::vector<std::uint32_t>;
 using Stop = std::function<bool()>;
+using Judge = Judgement (*)(const Pile& pile, const Stop& stop);
 
 constexpr int kRounds = 400;
 
@@ -24,7 +25,7 @@ Pile held(Pile pile, const Group& bodies) {
 }
 
 /// The verdict of `group` when everything outside of it is held, which is one fixed body then.
-Verdict verdict_alone(const Pile& pile, const Group& group, const Stop& stop) {
+Verdict verdict_alone(const Pile& pile, const Group& group, Judge judged, const Stop& stop) {
   Pile alone;
   alone.down = pile.down;
   constexpr std::uint32_t kHeld = 0;
@@ -44,20 +45,20 @@ Verdict verdict_alone(const Pile& pile, const Group& group, const Stop& stop) {
       p.body = number[p.body];
       alone.pushes.push_back(p);
     }
-  return judge(alone, stop).verdict;
+  return judged(alone, stop).verdict;
 }
 
 /// Everything outside of `group` is held, and still it does not stand.
-bool must_be_hit(const Pile& pile, const Group& group, const Stop& stop) {
-  return verdict_alone(pile, group, stop) != Verdict::stands;
+bool must_be_hit(const Pile& pile, const Group& group, Judge judged, const Stop& stop) {
+  return verdict_alone(pile, group, judged, stop) != Verdict::stands;
 }
 
 /// A group of which no part can be left out; halves are tried before single bodies. What falls stays so: only falling
 /// is proved.
-Group smallest(const Pile& pile, Group group, const Stop& stop) {
-  const bool falls = verdict_alone(pile, group, stop) == Verdict::falls;
+Group smallest(const Pile& pile, Group group, Judge judged, const Stop& stop) {
+  const bool falls = verdict_alone(pile, group, judged, stop) == Verdict::falls;
   const auto will_do = [&](const Group& less) {
-    const Verdict verdict = verdict_alone(pile, less, stop);
+    const Verdict verdict = verdict_alone(pile, less, judged, stop);
     return verdict == Verdict::falls || (!falls && verdict != Verdict::stands);
   };
   for (std::size_t size = group.size() / 2; size > 0; size /= 2)
@@ -129,23 +130,29 @@ std::vector<Group> moving_groups(const Pile& pile, const Motions& motion) {
   return result;
 }
 
-Holds least_holds(const Pile& pile, const Stop& stop) {
+namespace {
+
+Holds find_holds(const Pile& pile, Judge judged, const Stop& stop) {
   Holds result;
-  bool exact = true;
+  bool exact = true;  // each group falls, which is a proof
   const auto add = [&](Group group) {
-    result.groups.push_back(smallest(pile, std::move(group), stop));
+    result.groups.push_back(smallest(pile, std::move(group), judged, stop));
     // Of hitting sets of the same size, one of large bodies: these are easy to reach and to grip.
     std::stable_sort(result.groups.back().begin(), result.groups.back().end(), [&](std::uint32_t a, std::uint32_t b) {
       return pile.bodies[a].radius > pile.bodies[b].radius;
     });
-    exact = exact && verdict_alone(pile, result.groups.back(), stop) == Verdict::falls;
+    exact = exact && verdict_alone(pile, result.groups.back(), judged, stop) == Verdict::falls;
   };
   // Bodies that nothing holds: found at once, and most groups are of this kind.
   for (std::uint32_t i = 0; i < pile.bodies.size() && !(stop && stop()); ++i)
-    if (!pile.bodies[i].fixed && verdict_alone(pile, {i}, stop) == Verdict::falls) result.groups.push_back({i});
+    if (!pile.bodies[i].fixed)
+      if (const Verdict verdict = verdict_alone(pile, {i}, judge, stop); verdict != Verdict::stands) {
+        result.groups.push_back({i});
+        exact = exact && verdict == Verdict::falls;
+      }
   for (int round = 0; round < kRounds && !(stop && stop()); ++round) {
     result.held = minimum_hitting_set(result.groups);
-    const Judgement found = judge(held(pile, result.held), stop);
+    const Judgement found = judged(held(pile, result.held), stop);
     if (found.verdict == Verdict::stands) {
       result.found = true;
       result.proved = exact;
@@ -153,7 +160,7 @@ Holds least_holds(const Pile& pile, const Stop& stop) {
     }
     bool more = false;
     for (Group& g : moving_groups(held(pile, result.held), found.motion))
-      if (must_be_hit(pile, g, stop)) {
+      if (must_be_hit(pile, g, judged, stop)) {
         add(std::move(g));
         more = true;
       }
@@ -167,5 +174,11 @@ Holds least_holds(const Pile& pile, const Stop& stop) {
   }
   return result;
 }
+
+}  // namespace
+
+Holds least_holds(const Pile& pile, const Stop& stop) { return find_holds(pile, judge, stop); }
+
+Holds least_holds_by_forces(const Pile& pile, const Stop& stop) { return find_holds(pile, judge_forces, stop); }
 
 }  // namespace dismantle::statics

@@ -22,6 +22,14 @@ std::string_view to_string(Verdict verdict) {
   return "uncertain";
 }
 
+Judgement judge_forces(const Pile& pile, const std::function<bool()>& stop) {
+  Balance any = balance(pile, FrictionLaw::associated, stop);
+  if (any.balanced && check_equilibrium(pile, any.forces).empty())
+    return {Verdict::stands, std::move(any.forces), {}, {}};
+  if (!any.balanced && check_fall(pile, any.falling).empty()) return {Verdict::falls, {}, {}, std::move(any.falling)};
+  return {};
+}
+
 Judgement judge(const Pile& pile, const std::function<bool()>& stop) {
   Balance any = balance(pile, FrictionLaw::associated, stop);
   if (!any.balanced && check_fall(pile, any.falling).empty()) return {Verdict::falls, {}, {}, std::move(any.falling)};

@@ -117,15 +117,15 @@ std::shared_ptr<Gravity::Scene> Gravity::scene_of(const Assembly& assembly) cons
 Gravity::State Gravity::holds_of(const statics::BuiltPile& built, std::span<const PlacedPart> parts,
                                  const Assembly& assembly, const RunContext& context) const {
   const auto stop = [&] { return context.should_stop(); };
-  const statics::Judgement free = statics::judge(built.pile, stop);
+  const statics::Holds holds = statics::least_holds_by_forces(built.pile, stop);
   State state;
-  if (free.verdict == statics::Verdict::stands) return state;
-  const statics::Holds holds = statics::least_holds(built.pile, stop);
   state.found = holds.found;
   state.proved = holds.proved;
+  if (holds.held.empty()) return state;
+  const statics::Judgement free = statics::judge_forces(built.pile, stop);
   statics::Pile held = built.pile;
   for (const std::uint32_t body : holds.held) held.bodies[body].fixed = true;
-  const statics::Judgement with = statics::judge(held, stop);
+  const statics::Judgement with = statics::judge_forces(held, stop);
   for (const std::uint32_t body : holds.held) {
     Hold hold;
     double largest = -1;
@@ -165,16 +165,23 @@ Gravity::State Gravity::at_rest(Scene& scene, const Assembly& assembly, std::spa
   return scene.known.emplace(std::move(key), std::move(state)).first->second;
 }
 
-/// What the present parts need while the new one is pressed in, and while it is pulled back a little.
+/// What the present parts need while the new one is pressed in, and while it is pulled back a little. What holds them at
+/// rest is taken first: usually it is enough.
 Gravity::State Gravity::while_put_in(Scene& scene, const StepQuestion& question, const RunContext& context) const {
-  State worst;
-  if (question.present.empty() || question.direction.isZero()) return worst;
+  if (question.present.empty() || question.direction.isZero()) return {};
   const std::vector<PlacedPart> parts = joined(question.present, {});
+  State worst = at_rest(scene, question.assembly, parts, question.up, true, context);
   const statics::BuiltPile alone = scene.piles->pile(parts, question.up);
+  const State rest = worst;
   for (const double sign : {1.0, -1.0}) {
     statics::BuiltPile pressed = alone;
     scene.piles->press(pressed, parts, question.moving, sign * question.direction, kPush);
-    if (pressed.pile.pushes.empty()) return at_rest(scene, question.assembly, parts, question.up, true, context);
+    if (pressed.pile.pushes.empty()) continue;
+    statics::Pile held = pressed.pile;
+    for (const Hold& h : rest.holds)
+      for (std::size_t i = 0; i < parts.size(); ++i)
+        if (parts[i].part == h.part) held.bodies[pressed.body_of[i]].fixed = true;
+    if (statics::judge_forces(held, [&] { return context.should_stop(); }).verdict == statics::Verdict::stands) continue;
     State state = holds_of(pressed, parts, question.assembly, context);
     if (state.holds.size() > worst.holds.size() || !state.found) worst = std::move(state);
   }

@@ -151,7 +151,7 @@ std::string steps_csv(const Plan& plan, const InputFrame& frame) {
       std::reverse(poses.begin(), poses.end());
       const MotionSummary summary =
           in_unit(summarize_motion(poses, point_on_axis(poses, middle), leg_tolerance(size)), unit.factor);
-      motion = motion_words(summary, unit.name, frame.y_up);
+      motion = motion_words(summary, unit.name, frame.y_up, frame.lies(step.up));
       if (!summary.legs.empty()) {
         const Eigen::Vector3d last = summary.legs.back().normalized();
         direction = fmt::format("{:.6f},{:.6f},{:.6f}", last.x() + 0.0, last.y() + 0.0, last.z() + 0.0);

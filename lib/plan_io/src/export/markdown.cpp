@@ -73,7 +73,7 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
       if (!step.moves.empty()) {
         const std::vector<Pose>& poses = step.moves.front().poses;
         const MotionSummary summary = summarize_motion(poses, point_on_axis(poses, middle), leg_tolerance(size));
-        motion = motion_words(in_unit(summary, unit.factor), unit.name, frame.y_up);
+        motion = motion_words(in_unit(summary, unit.factor), unit.name, frame.y_up, frame.lies(step.up));
       }
       const std::string what = step.separates.empty() ? " (shifted, stays)" : "";
       out += fmt::format("| {} | {}{} | {} | {} | {} | {} |{}\n", step.step, markdown_text(text::names_of(plan, step)), what,

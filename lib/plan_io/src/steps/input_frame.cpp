@@ -32,6 +32,12 @@ Eigen::Quaterniond InputFrame::to_y_up() const {
   return {half, -half, 0, 0};
 }
 
+Eigen::Quaterniond InputFrame::lies(const std::optional<Eigen::Vector3d>& way_up) const {
+  if (!way_up) return Eigen::Quaterniond::Identity();
+  if (way_up->dot(up()) < -1 + 1e-9) return {0, 1, 0, 0};  // over its front: right stays right
+  return Eigen::Quaterniond::FromTwoVectors(*way_up, up());
+}
+
 TextUnit text_unit(const std::string& unit, const Aabb& box) {
   if (unit_named(unit).empty()) return {unit, 1};
   const std::string name = unit_for_people(unit, box.empty() ? 1 : box.size().maxCoeff());

@@ -109,10 +109,10 @@ MotionSummary summarize_motion(const std::vector<Pose>& poses, const Eigen::Vect
   return out;
 }
 
-std::string direction_words(const Eigen::Vector3d& direction, bool y_up) {
+std::string direction_words(const Eigen::Vector3d& direction, bool y_up, const Eigen::Quaterniond& lies) {
   const double length = direction.norm();
   if (!(length > 0) || !std::isfinite(length)) throw Error("a direction without length has no words");
-  const Eigen::Vector3d d = direction / length;
+  const Eigen::Vector3d d = direction / length, seen = lies * d;
   // Right, back, up: for Z up seen from -Y, for Y up seen from +Z.
   struct Axis {
     Eigen::Index k;
@@ -121,29 +121,45 @@ std::string direction_words(const Eigen::Vector3d& direction, bool y_up) {
   const Axis axes[3] = {{y_up ? 1 : 2, "up", "down"},
                         {0, "right", "left"},
                         {y_up ? 2 : 1, y_up ? "to the front" : "to the back", y_up ? "to the back" : "to the front"}};
-  for (const Axis& axis : axes)
-    if (std::abs(d[axis.k]) > kOneAxis)
-      return fmt::format("{} ({}{})", d[axis.k] > 0 ? axis.plus : axis.minus, d[axis.k] > 0 ? '+' : '-', "XYZ"[axis.k]);
   std::string words;
   for (const Axis& axis : axes)
-    if (std::abs(d[axis.k]) > 0.2)  // a smaller share of the direction is not named
-      words += (words.empty() ? "" : " and ") + std::string(d[axis.k] > 0 ? axis.plus : axis.minus);
+    if (std::abs(seen[axis.k]) > kOneAxis) words = seen[axis.k] > 0 ? axis.plus : axis.minus;
+  const bool several = words.empty();
+  for (const Axis& axis : axes)
+    if (several && std::abs(seen[axis.k]) > 0.2)  // a smaller share of the direction is not named
+      words += (words.empty() ? "" : " and ") + std::string(seen[axis.k] > 0 ? axis.plus : axis.minus);
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(d[k]) > kOneAxis) return fmt::format("{} ({}{})", words, d[k] > 0 ? '+' : '-', "XYZ"[k]);
   const auto rounded = [](double x) { return std::round(100 * x) / 100 + 0.0; };
   return fmt::format("{} ({}, {}, {})", words, rounded(d.x()), rounded(d.y()), rounded(d.z()));
 }
 
-std::string motion_words(const MotionSummary& motion, const std::string& unit, bool y_up) {
+std::string lie_words(const Eigen::Vector3d& up, bool y_up) {
+  const Eigen::Index vertical = y_up ? 1 : 2, back = y_up ? 2 : 1;
+  const double to_back = y_up ? -up[back] : up[back];
+  const std::string side = std::abs(up[vertical]) > kOneAxis ? (up[vertical] > 0 ? "as drawn" : "upside down")
+                           : std::abs(up.x()) > kOneAxis     ? (up.x() > 0 ? "on its left side" : "on its right side")
+                           : std::abs(to_back) > kOneAxis    ? (to_back > 0 ? "on its front" : "on its back")
+                                                             : "turned";
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(up[k]) > kOneAxis) return fmt::format("{} ({}{} up)", side, up[k] > 0 ? '+' : '-', "XYZ"[k]);
+  const auto rounded = [](double x) { return std::round(100 * x) / 100 + 0.0; };
+  return fmt::format("{} (({}, {}, {}) up)", side, rounded(up.x()), rounded(up.y()), rounded(up.z()));
+}
+
+std::string motion_words(const MotionSummary& motion, const std::string& unit, bool y_up,
+                         const Eigen::Quaterniond& lies) {
   const std::string of_unit = unit.empty() ? "" : " " + unit;
   std::string out;
   if (motion.legs.size() > 4) {
     out = fmt::format("along its path, {}{} in all", figure_text(motion.length), of_unit);
     if (motion.displacement.norm() > 1e-3 * motion.length)
       out += fmt::format(", to a place {}{} {}", figure_text(motion.displacement.norm()), of_unit,
-                         direction_words(motion.displacement, y_up));
+                         direction_words(motion.displacement, y_up, lies));
   } else {
     for (const Eigen::Vector3d& leg : motion.legs)
       out += fmt::format("{}{}{} {}", out.empty() ? "" : ", then ", figure_text(leg.norm()), of_unit,
-                         direction_words(leg, y_up));
+                         direction_words(leg, y_up, lies));
   }
   if (motion.turn * 180 / std::numbers::pi < kTurned) return out.empty() ? "in its place" : out;
   const bool straight = motion.legs.size() == 1;
@@ -152,7 +168,7 @@ std::string motion_words(const MotionSummary& motion, const std::string& unit, b
   if (std::abs(along) > kOneAxis)
     return out + fmt::format(", turning {} by {}", along > 0 ? "clockwise" : "counter-clockwise", turn);
   const std::string about =
-      fmt::format("by {} clockwise about the axis that points {}", turn, direction_words(motion.axis, y_up));
+      fmt::format("by {} clockwise about the axis that points {}", turn, direction_words(motion.axis, y_up, lies));
   return out.empty() ? "in its place, turning " + about : out + ", turning " + about;
 }
 

@@ -7,6 +7,8 @@
 
 #include "dismantle/assembly.h"
 #include "dismantle/export.h"
+#include <optional>
+
 #include "dismantle/plan.h"
 
 namespace dismantle {
@@ -21,6 +23,8 @@ struct InputFrame {
   Eigen::Vector3d up() const { return y_up ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ(); }
   /// Turns input axes to those of glTF.
   Eigen::Quaterniond to_y_up() const;
+  /// How an assembly lies in a step that states its `up` (unit): turned from how it is drawn. None: not turned.
+  Eigen::Quaterniond lies(const std::optional<Eigen::Vector3d>& up) const;
 };
 
 /// Unit in which texts state lengths, and how many of it one input unit is.

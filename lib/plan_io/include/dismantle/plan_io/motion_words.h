@@ -41,12 +41,18 @@ DISMANTLE_API std::string figure_text(double x);
 
 /// "up (+Z)", "left and down (-0.71, 0, -0.71)": the axes of the assembly seen by someone who stands before it. `y_up`:
 /// the input has Y up and is seen from +Z; otherwise Z is up and it is seen from -Y. `direction` need not be a unit
-/// vector.
+/// vector. `lies`: how the assembly is turned, from how it is drawn; the words are for the person, the axis that of the
+/// assembly.
 /// @throws Error for a direction without length.
-DISMANTLE_API std::string direction_words(const Eigen::Vector3d& direction, bool y_up);
+DISMANTLE_API std::string direction_words(const Eigen::Vector3d& direction, bool y_up,
+                                          const Eigen::Quaterniond& lies = Eigen::Quaterniond::Identity());
+
+/// "upside down", "on its left side (+X up)": how an assembly lies whose direction `up` (unit) points upwards.
+DISMANTLE_API std::string lie_words(const Eigen::Vector3d& up, bool y_up);
 
 /// "40 mm down (-Z), then 3 mm left (-X)", "15 mm down (-Z), turning clockwise by 5 turns": one phrase. Clockwise is
 /// seen along the motion, or along the axis that is named. `unit` may be empty.
-DISMANTLE_API std::string motion_words(const MotionSummary& motion, const std::string& unit, bool y_up);
+DISMANTLE_API std::string motion_words(const MotionSummary& motion, const std::string& unit, bool y_up,
+                                       const Eigen::Quaterniond& lies = Eigen::Quaterniond::Identity());
 
 }  // namespace dismantle

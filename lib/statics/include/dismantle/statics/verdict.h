@@ -32,4 +32,8 @@ struct Judgement {
 /// A pile without anything that can move stands.
 DISMANTLE_API Judgement judge(const Pile& pile, const std::function<bool()>& stop = {});
 
+/// The same for forces alone: `stands` means that forces in equilibrium exist, whatever creates them. Some ten times
+/// faster. The certificates are `forces` and `motion`.
+DISMANTLE_API Judgement judge_forces(const Pile& pile, const std::function<bool()>& stop = {});
+
 }  // namespace dismantle::statics
