@@ -17,6 +17,7 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 
 constexpr double kSamePose = 1e-9;  // of the size of the assembly, and in radians
+constexpr double kPlay = 10;           // Gaps::play
 constexpr double kSeat = 0.3;          // cosine: a contact that stops a motion; otherwise it lies along it
 constexpr double kAlmostNoWeight = 1e-6;  // kg, of a part without a volume
 
@@ -46,11 +47,11 @@ BuiltPiles::BuiltPiles(const Assembly& assembly, StabilityOptions options) : opt
   neighbours_.resize(count);
   for (PartId a = 0; a < count; ++a)
     for (PartId b = a + 1; b < count; ++b) {
-      const double gap = options_.touching * std::min(boxes_[a].size().norm(), boxes_[b].size().norm());
+      const double gap = kPlay * options_.touching * std::min(boxes_[a].size().norm(), boxes_[b].size().norm());
       Aabb near = boxes_[a];
       near.inflate(gap);
       if (!near.overlaps(boxes_[b])) continue;
-      const bool bond = is_bonded(assembly, a, b, gap / 2);
+      const bool bond = is_bonded(assembly, a, b, gap / (2 * kPlay));
       const InitialOverlap* overlap = assembly.overlap_of(a, b);
       const double depth = overlap == nullptr ? 0 : overlap->depth;
       neighbours_[a].push_back({b, bond, depth});
@@ -100,18 +101,20 @@ bool BuiltPiles::bonded(PartId a, PartId b) const {
   return near != nullptr ? near->bonded : fasteners_[a] || fasteners_[b];
 }
 
-std::vector<Contact> BuiltPiles::contacts(const PlacedPart& a, const PlacedPart& b) const {
+double BuiltPiles::touching(Gaps gaps) const { return (gaps == Gaps::play ? kPlay : 1) * options_.touching; }
+
+std::vector<Contact> BuiltPiles::contacts(const PlacedPart& a, const PlacedPart& b, Gaps gaps) const {
   const Neighbour* near = neighbour(a.part, b.part);
   const bool bond = bonded(a.part, b.part);
   const Pose to_b = relative(a, b);
   std::vector<Contact> result;
   if (to_b.t.norm() > kSamePose * size_ || to_b.q.vec().norm() > kSamePose) {
-    result = pair_contacts({&shape(a.part), a.pose}, {&shape(b.part), b.pose}, options_.touching, bond, 0);
+    result = pair_contacts({&shape(a.part), a.pose}, {&shape(b.part), b.pose}, touching(gaps), bond, 0);
   } else {
-    const std::pair<PartId, PartId> key(a.part, b.part);
+    const std::tuple key(a.part, b.part, gaps);
     auto known = contacts_.find(key);
     if (known == contacts_.end()) known = contacts_
-                  .emplace(key, pair_contacts({&shape(a.part), {}}, {&shape(b.part), {}}, options_.touching, bond,
+                  .emplace(key, pair_contacts({&shape(a.part), {}}, {&shape(b.part), {}}, touching(gaps), bond,
                                               near == nullptr ? 0 : near->overlap))
                   .first;
     result = known->second;
@@ -124,11 +127,12 @@ std::vector<Contact> BuiltPiles::contacts(const PlacedPart& a, const PlacedPart&
   return result;
 }
 
-void BuiltPiles::add_table(std::span<const PlacedPart> parts, double lowest, const Vec3& up, BuiltPile& built) const {
+void BuiltPiles::add_table(std::span<const PlacedPart> parts, double lowest, const Vec3& up, Gaps gaps,
+                           BuiltPile& built) const {
   const std::uint32_t table = static_cast<std::uint32_t>(built.pile.bodies.size() - 1);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (height(parts[i], up) > lowest + options_.touching * shape(parts[i].part).radius()) continue;
-    Contact c = contact_with_table({&shape(parts[i].part), parts[i].pose}, up, lowest, options_.touching);
+    if (height(parts[i], up) > lowest + touching(gaps) * shape(parts[i].part).radius()) continue;
+    Contact c = contact_with_table({&shape(parts[i].part), parts[i].pose}, up, lowest, touching(gaps));
     if (c.points.empty()) continue;
     c.a = built.body_of[i];
     c.b = table;
@@ -137,13 +141,13 @@ void BuiltPiles::add_table(std::span<const PlacedPart> parts, double lowest, con
   }
 }
 
-BuiltPile BuiltPiles::pile(std::span<const PlacedPart> parts, const Vec3& up, bool table) const {
+BuiltPile BuiltPiles::pile(std::span<const PlacedPart> parts, const Vec3& up, Gaps gaps, bool table) const {
   const std::lock_guard lock(mutex_);
   const std::size_t count = parts.size();
   std::vector<Aabb> boxes;
   for (const PlacedPart& p : parts) {
     boxes.push_back(geometry::box_under(boxes_[p.part], p.pose));
-    boxes.back().inflate(options_.touching * boxes.back().size().norm());
+    boxes.back().inflate(touching(gaps) * boxes.back().size().norm());
   }
   struct Found {
     std::size_t a, b;
@@ -154,7 +158,7 @@ BuiltPile BuiltPiles::pile(std::span<const PlacedPart> parts, const Vec3& up, bo
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = i + 1; j < count; ++j) {
       if (!boxes[i].overlaps(boxes[j])) continue;
-      std::vector<Contact> own = contacts(parts[i], parts[j]);
+      std::vector<Contact> own = contacts(parts[i], parts[j], gaps);
       if (own.empty()) continue;
       if (bonded(parts[i].part, parts[j].part))
         rigid.join(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
@@ -188,12 +192,12 @@ BuiltPile BuiltPiles::pile(std::span<const PlacedPart> parts, const Vec3& up, bo
     }
   double lowest = std::numeric_limits<double>::infinity();
   for (const PlacedPart& p : parts) lowest = std::min(lowest, height(p, up));
-  if (table) add_table(parts, lowest, up, built);
+  if (table) add_table(parts, lowest, up, gaps, built);
   return built;
 }
 
 void BuiltPiles::press(BuiltPile& built, std::span<const PlacedPart> parts, std::span<const PlacedPart> moving,
-                       const Vec3& direction, double share) const {
+                       const Vec3& direction, double share, Gaps gaps) const {
   const std::lock_guard lock(mutex_);
   struct Touch {
     std::size_t part;
@@ -204,10 +208,10 @@ void BuiltPiles::press(BuiltPile& built, std::span<const PlacedPart> parts, std:
   for (const PlacedPart& m : moving) {
     weight += body(m).weight;
     Aabb box = geometry::box_under(boxes_[m.part], m.pose);
-    box.inflate(options_.touching * box.size().norm());
+    box.inflate(touching(gaps) * box.size().norm());
     for (std::size_t i = 0; i < parts.size(); ++i) {
       if (!box.overlaps(geometry::box_under(boxes_[parts[i].part], parts[i].pose))) continue;
-      for (Contact& c : contacts(m, parts[i])) {
+      for (Contact& c : contacts(m, parts[i], gaps)) {
         const double against = -c.normal.dot(direction);  // the normal points into `moving`
         if (against > kSeat)
           seats.push_back({i, std::move(c)});
@@ -227,31 +231,63 @@ void BuiltPiles::press(BuiltPile& built, std::span<const PlacedPart> parts, std:
   }
 }
 
-bool BuiltPiles::stands_alone(std::span<const PlacedPart> moving, std::span<const PlacedPart> others,
-                              const Vec3& up) const {
+std::size_t BuiltPiles::unsupported(std::span<const PlacedPart> parts, std::span<const PlacedPart> of,
+                                    const Vec3& up) const {
   const std::lock_guard lock(mutex_);
-  const PlacedPart& first = moving.front();
-  const auto as_assembled = [&](const PlacedPart& p) {
-    const Pose r = relative(p, first);
-    return r.t.norm() <= kSamePose * size_ && r.q.vec().norm() <= kSamePose;
-  };
-  double lowest = std::numeric_limits<double>::infinity(), own = lowest;
-  for (const PlacedPart& p : moving) own = std::min(own, height(p, up));
-  bool in_place = std::all_of(moving.begin(), moving.end(), as_assembled);
-  std::vector<PlacedPart> unit(moving.begin(), moving.end()), near;
-  for (const PlacedPart& p : others) {
+  std::vector<const PlacedPart*> there(meshes_.size(), nullptr);
+  double lowest = std::numeric_limits<double>::infinity();
+  bool in_place = true;  // as assembled, relative to each other
+  for (const PlacedPart& p : parts) {
+    there[p.part] = &p;
     lowest = std::min(lowest, height(p, up));
-    const bool in_its_place = as_assembled(p);
-    in_place = in_place && in_its_place;
-    if (!in_its_place || std::any_of(unit.begin(), unit.end(), [&](const PlacedPart& m) { return neighbour(m.part, p.part) != nullptr; }))
-      near.push_back(p);
+    const Pose r = relative(p, parts.front());
+    in_place = in_place && r.t.norm() <= kSamePose * size_ && r.q.vec().norm() <= kSamePose;
   }
-  const double above = std::max(0.0, own - lowest);
-  if (!in_place) return stands_on(unit, near, up, own - above);
+  std::vector<bool> seen(meshes_.size(), false);
+  std::size_t count = 0;
+  for (const PlacedPart& first : of) {
+    if (seen[first.part]) continue;
+    std::vector<PlacedPart> body{first}, near;
+    seen[first.part] = true;
+    for (std::size_t i = 0; i < body.size(); ++i)
+      for (const Neighbour& n : neighbours_[body[i].part]) {
+        const PlacedPart* other = there[n.part];
+        if (other == nullptr || seen[n.part] || !n.bonded || contacts(body[i], *other, Gaps::tight).empty()) continue;
+        seen[n.part] = true;
+        body.push_back(*other);
+      }
+    std::sort(body.begin(), body.end(), [](const PlacedPart& x, const PlacedPart& y) { return x.part < y.part; });
+    std::vector<bool> close(meshes_.size(), !in_place);
+    for (const PlacedPart& p : body)
+      for (const Neighbour& n : neighbours_[p.part]) close[n.part] = true;
+    for (const PlacedPart& p : body) close[p.part] = false;
+    for (const PlacedPart& p : parts)
+      if (close[p.part]) near.push_back(p);
+    double own = std::numeric_limits<double>::infinity();
+    for (const PlacedPart& p : body) own = std::min(own, height(p, up));
+    double above = std::max(0.0, own - lowest);
+    if (above > touching(Gaps::play) * size_) above = size_;  // far from the table
+    count += stands(std::move(body), std::move(near), up, own - above, in_place) ? 0 : 1;
+  }
+  return count;
+}
+
+bool BuiltPiles::stands(std::vector<PlacedPart> body, std::vector<PlacedPart> near, Vec3 up, double table,
+                        bool in_place) const {
+  const auto either = [&] {
+    return stands_on(body, near, up, table, Gaps::tight) || stands_on(body, near, up, table, Gaps::play);
+  };
+  if (!in_place) return either();
   // The answer is kept. It is found in the frame of the assembly, so that it does not depend on who asks first.
-  const Vec3 own_up = first.pose.q.conjugate() * up;
-  std::vector<double> key{own_up.x(), own_up.y(), own_up.z(), above};
-  for (PlacedPart& p : unit) {
+  const auto bottom = [&] {
+    double low = std::numeric_limits<double>::infinity();
+    for (const PlacedPart& p : body) low = std::min(low, height(p, up));
+    return low;
+  };
+  const double above = bottom() - table;
+  up = body.front().pose.q.conjugate() * up;
+  std::vector<double> key{up.x(), up.y(), up.z(), above};
+  for (PlacedPart& p : body) {
     p.pose = {};
     key.push_back(p.part);
   }
@@ -260,15 +296,13 @@ bool BuiltPiles::stands_alone(std::span<const PlacedPart> moving, std::span<cons
     p.pose = {};
     key.push_back(p.part);
   }
-  const auto known = alone_.find(key);
-  if (known != alone_.end()) return known->second;
-  double bottom = std::numeric_limits<double>::infinity();
-  for (const PlacedPart& p : unit) bottom = std::min(bottom, height(p, own_up));
-  return alone_.emplace(std::move(key), stands_on(unit, near, own_up, bottom - above)).first->second;
+  if (const auto known = alone_.find(key); known != alone_.end()) return known->second;
+  table = bottom() - above;
+  return alone_.emplace(std::move(key), either()).first->second;
 }
 
 bool BuiltPiles::stands_on(std::span<const PlacedPart> unit, std::span<const PlacedPart> near, const Vec3& up,
-                           double table) const {
+                           double table, Gaps gaps) const {
   Body whole{0, Vec3::Zero(), 0, false};
   std::vector<Body> bodies;
   for (const PlacedPart& p : unit) {
@@ -282,13 +316,13 @@ bool BuiltPiles::stands_on(std::span<const PlacedPart> unit, std::span<const Pla
   BuiltPile built{{{whole, {0, Vec3::Zero(), 1, true}}, {}, -up}, std::vector<std::uint32_t>(unit.size(), 0)};
   for (const PlacedPart& p : unit)
     for (const PlacedPart& other : near)
-      for (Contact& c : contacts(p, other)) {
+      for (Contact& c : contacts(p, other, gaps)) {
         if (bonded(p.part, other.part)) return true;
         c.a = 0;
         c.b = 1;
         built.pile.contacts.push_back(std::move(c));
       }
-  add_table(unit, table, up, built);
+  add_table(unit, table, up, gaps, built);
   return judge(built.pile).verdict == Verdict::stands;
 }
 

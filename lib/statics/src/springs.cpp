@@ -96,28 +96,62 @@ VectorXd Springs::derivatives(const VectorXd& anchor, bool coupled, Eigen::Spars
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(points_.size() * 78 + static_cast<std::size_t>(size()));
   for (Index i = 0; i < size(); ++i) entries.emplace_back(i, i, coupled ? kProximalCoupled : kProximal);
-  using Block = Eigen::Matrix<double, 3, 6>;
+  using Block = Eigen::Matrix<double, 6, 6>;
   std::size_t next = 0;
   while (next < points_.size()) {
-    // The points of one contact share their blocks.
+    // The points of one contact share their blocks. A point p moves by v + w x r; with the cross matrix R of r its
+    // block is [1, -R]' D [1, -R]. The scales of the bodies come in the end.
     const Point& head = points_[next];
-    Eigen::Matrix<double, 6, 6> aa, ab, ba, bb;
-    for (auto* m : {&aa, &ab, &ba, &bb}) m->setZero();
+    Block aa = Block::Zero(), ab = Block::Zero(), ba = Block::Zero(), bb = Block::Zero();
+    bool pressed = false;
     for (; next < points_.size() && points_[next].contact == head.contact; ++next) {
       const Point& p = points_[next];
       const PointForce f = law_of(p, moved(p, x_), coupled);
-      Block ja = Block::Zero(), jb = Block::Zero();
-      if (p.a >= 0) ja << Mat3::Identity() * scale_[p.a], -cross_matrix(p.ra) * scale_[p.a + 3];
-      if (p.b >= 0) jb << -Mat3::Identity() * scale_[p.b], cross_matrix(p.rb) * scale_[p.b + 3];
-      if (p.a >= 0) gradient.segment<6>(p.a) -= p.stiffness * ja.transpose() * f.force;
-      if (p.b >= 0) gradient.segment<6>(p.b) -= p.stiffness * jb.transpose() * f.force;
+      if (f.resistance.isZero(0) && f.force.isZero(0)) continue;
+      pressed = true;
+      const Vec3 force = p.stiffness * f.force;
       const Mat3 d = p.stiffness * f.resistance;
-      aa += ja.transpose() * d * ja;
-      ab += ja.transpose() * d * jb;
-      ba += jb.transpose() * d * ja;
-      bb += jb.transpose() * d * jb;
+      const auto pull = [&](Index i, const Vec3& r, const Vec3& on) {
+        gradient.segment<3>(i) -= on * scale_[i];
+        gradient.segment<3>(i + 3) -= r.cross(on) * scale_[i + 3];
+      };
+      const auto own = [&](Block& m, const Mat3& arm, const Mat3& turned) {  // turned = d arm
+        m.topLeftCorner<3, 3>() += d;
+        m.topRightCorner<3, 3>() -= turned;
+        m.bottomLeftCorner<3, 3>() += arm * d;  // arm' = -arm
+        m.bottomRightCorner<3, 3>() -= arm * turned;
+      };
+      const Mat3 arm_a = cross_matrix(p.ra), arm_b = cross_matrix(p.rb), turned_a = d * arm_a, turned_b = d * arm_b;
+      if (p.a >= 0) {
+        pull(p.a, p.ra, force);
+        own(aa, arm_a, turned_a);
+      }
+      if (p.b >= 0) {
+        pull(p.b, p.rb, -force);
+        own(bb, arm_b, turned_b);
+      }
+      const auto other = [&](Block& m, const Mat3& arm, const Mat3& turned) {
+        m.topLeftCorner<3, 3>() -= d;
+        m.topRightCorner<3, 3>() += turned;
+        m.bottomLeftCorner<3, 3>() -= arm * d;
+        m.bottomRightCorner<3, 3>() += arm * turned;
+      };
+      if (p.a >= 0 && p.b >= 0) {
+        other(ab, arm_a, turned_b);
+        if (coupled) other(ba, arm_b, turned_a);
+      }
     }
-    const auto add = [&](Index row, Index column, const Eigen::Matrix<double, 6, 6>& m) {
+    // The pattern of the matrix does not depend on what presses.
+    const auto scaled = [&](Index row, Index column, const Block& m) -> Block {
+      return scale_.segment<6>(row).asDiagonal() * m * scale_.segment<6>(column).asDiagonal();
+    };
+    if (head.a >= 0 && pressed) aa = scaled(head.a, head.a, aa);
+    if (head.b >= 0 && pressed) bb = scaled(head.b, head.b, bb);
+    if (head.a >= 0 && head.b >= 0 && pressed) {
+      ab = scaled(head.a, head.b, ab);
+      ba = coupled ? scaled(head.b, head.a, ba) : Block(ab.transpose());
+    }
+    const auto add = [&](Index row, Index column, const Block& m) {
       for (Index r = 0; r < 6; ++r)
         for (Index c = 0; c < 6; ++c)
           if (coupled || row + r >= column + c) entries.emplace_back(row + r, column + c, m(r, c));

@@ -21,6 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Vec3 = Eigen::Vector3d;
+using statics::Gaps;
 
 constexpr double kPush = 2;         // times its weight: what a hand presses a part in with
 constexpr double kSameUp = 1e-9;    // 1 - cosine
@@ -159,7 +160,13 @@ Gravity::State Gravity::at_rest(Scene& scene, const Assembly& assembly, std::spa
     const std::lock_guard lock(mutex_);
     if (const auto known = scene.known.find(key); known != scene.known.end()) return known->second;
   }
-  State state = holds_of(scene.piles->pile(parts, up, table), parts, assembly, context);
+  const auto balanced = [&](Gaps gaps) {
+    const auto stop = [&] { return context.should_stop(); };
+    return statics::judge_forces(scene.piles->pile(parts, up, gaps, table).pile, stop).verdict == statics::Verdict::stands;
+  };
+  State state;
+  if (!table || scene.piles->unsupported(parts, parts, up) > 0 || !(balanced(Gaps::tight) || balanced(Gaps::play)))
+    state = holds_of(scene.piles->pile(parts, up, Gaps::play, table), parts, assembly, context);
   if (context.should_stop()) return state;
   const std::lock_guard lock(mutex_);
   return scene.known.emplace(std::move(key), std::move(state)).first->second;
@@ -171,11 +178,11 @@ Gravity::State Gravity::while_put_in(Scene& scene, const StepQuestion& question,
   if (question.present.empty() || question.direction.isZero()) return {};
   const std::vector<PlacedPart> parts = joined(question.present, {});
   State worst = at_rest(scene, question.assembly, parts, question.up, true, context);
-  const statics::BuiltPile alone = scene.piles->pile(parts, question.up);
+  const statics::BuiltPile alone = scene.piles->pile(parts, question.up, Gaps::play);
   const State rest = worst;
   for (const double sign : {1.0, -1.0}) {
     statics::BuiltPile pressed = alone;
-    scene.piles->press(pressed, parts, question.moving, sign * question.direction, kPush);
+    scene.piles->press(pressed, parts, question.moving, sign * question.direction, kPush, Gaps::play);
     if (pressed.pile.pushes.empty()) continue;
     statics::Pile held = pressed.pile;
     for (const Hold& h : rest.holds)
@@ -190,11 +197,14 @@ Gravity::State Gravity::while_put_in(Scene& scene, const StepQuestion& question,
 
 StepVerdict Gravity::estimate(const StepQuestion& question, const RunContext& /*context*/) const {
   StepVerdict verdict;
-  if (question.moving.empty() ||
-      scene_of(question.assembly)->piles->stands_alone(question.moving, question.present, question.up))
-    return verdict;
-  verdict.cost = 1;
-  verdict.reason = quoted(question.assembly, question.moving.front().part) + " has to be held: nothing is under it";
+  if (question.moving.empty()) return verdict;
+  const std::vector<PlacedPart> all = joined(question.present, question.moving);
+  const bool large = all.size() > static_cast<std::size_t>(params_.most_parts);
+  const std::span<const PlacedPart> of = large ? question.moving : std::span<const PlacedPart>(all);
+  const std::size_t count = scene_of(question.assembly)->piles->unsupported(all, of, question.up);
+  if (count == 0) return verdict;
+  verdict.cost = static_cast<double>(count);
+  verdict.reason = fmt::format("nothing is under {} part{}", count, count == 1 ? "" : "s");
   return verdict;
 }
 

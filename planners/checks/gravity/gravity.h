@@ -33,7 +33,7 @@ class Gravity final : public StepCheck {
     return {.remembers_orientation = true, .judges_plan = true, .reads_path = false, .estimates = true};
   }
   StepVerdict judge(const StepQuestion& question, const RunContext& context) const override;
-  /// Does the part that is put in stand by itself if everything else stays?
+  /// The parts after the step that do not stand by themselves if everything else stays.
   StepVerdict estimate(const StepQuestion& question, const RunContext& context) const override;
   /// Says whether some steps had too many parts.
   StepVerdict judge_plan(std::span<const StepQuestion> operations, const RunContext& context) const override;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,12 @@
 #include "dismantle/statics/stability.h"
 
 namespace dismantle::statics {
+
+/// Gaps that count as touching. CAD leaves play: a part that has some falls a little, and then it rests.
+enum class Gaps {
+  tight,  ///< StabilityOptions::touching
+  play,   ///< ten times as much: what stands now settles by less than that
+};
 
 /// A pile of placed parts. Parts that are bonded, directly or through others, are one body.
 struct BuiltPile {
@@ -37,16 +44,19 @@ class DISMANTLE_API BuiltPiles {
 
   /// `parts` in ascending order of ids. The table has the unit normal `up` and touches the lowest point; `table` false:
   /// there is none.
-  BuiltPile pile(std::span<const PlacedPart> parts, const Eigen::Vector3d& up, bool table = true) const;
+  BuiltPile pile(std::span<const PlacedPart> parts, const Eigen::Vector3d& up, Gaps gaps = Gaps::tight,
+                 bool table = true) const;
 
   /// Adds to the pile of `parts` what a hand does that presses `moving` onto them: `share` times the weight of `moving`
   /// along `direction`, on the contacts that stop it, or, if there is none, on those that lie along it, by friction.
   void press(BuiltPile& built, std::span<const PlacedPart> parts, std::span<const PlacedPart> moving,
-             const Eigen::Vector3d& direction, double share) const;
+             const Eigen::Vector3d& direction, double share, Gaps gaps = Gaps::tight) const;
 
-  /// Does `moving`, as one rigid body, stand on the others and on the table if these do not move?
-  bool stands_alone(std::span<const PlacedPart> moving, std::span<const PlacedPart> others,
-                    const Eigen::Vector3d& up) const;
+  /// How many bodies do not stand if the others, and the table, do not move? A lower bound of the holds that `parts`
+  /// need, but for what is wedged. Only bodies with a part of `of` are looked at. Answers are kept: each depends on the
+  /// neighbours of a body.
+  std::size_t unsupported(std::span<const PlacedPart> parts, std::span<const PlacedPart> of,
+                          const Eigen::Vector3d& up) const;
 
  private:
   struct Neighbour {
@@ -59,11 +69,15 @@ class DISMANTLE_API BuiltPiles {
   double height(const PlacedPart& part, const Eigen::Vector3d& up) const;
   Body body(const PlacedPart& part) const;
   /// Contacts of a on b; Contact::a and b are not set.
-  std::vector<Contact> contacts(const PlacedPart& a, const PlacedPart& b) const;
+  std::vector<Contact> contacts(const PlacedPart& a, const PlacedPart& b, Gaps gaps) const;
+  double touching(Gaps gaps) const;
   bool bonded(PartId a, PartId b) const;
+  bool stands(std::vector<PlacedPart> body, std::vector<PlacedPart> near, Eigen::Vector3d up, double table,
+              bool in_place) const;
   bool stands_on(std::span<const PlacedPart> unit, std::span<const PlacedPart> near, const Eigen::Vector3d& up,
-                 double table) const;
-  void add_table(std::span<const PlacedPart> parts, double lowest, const Eigen::Vector3d& up, BuiltPile& built) const;
+                 double table, Gaps gaps) const;
+  void add_table(std::span<const PlacedPart> parts, double lowest, const Eigen::Vector3d& up, Gaps gaps,
+                 BuiltPile& built) const;
 
   StabilityOptions options_;
   double newton_ = 1;  // of a volume of 1 with a density of 1 g/cm3
@@ -75,7 +89,7 @@ class DISMANTLE_API BuiltPiles {
   std::vector<std::vector<Neighbour>> neighbours_;  // by part: those whose boxes are near, ascending
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<const Shape>> shapes_;
-  mutable std::map<std::pair<PartId, PartId>, std::vector<Contact>> contacts_;  // as assembled
+  mutable std::map<std::tuple<PartId, PartId, Gaps>, std::vector<Contact>> contacts_;  // as assembled
   mutable std::map<std::vector<double>, bool> alone_;
 };
 
