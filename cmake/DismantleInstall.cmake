@@ -17,7 +17,7 @@ install(TARGETS dismantle_core ${libraries} dismantle_plugin_api dismantle_plugi
   INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(DIRECTORY core/include/ plugins/sdk/include/ plugins/host/include/ plugins/testing/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
   FILES_MATCHING PATTERN "*.h")
-foreach(library parallel geometry statics fasteners verification preparation plan_io samples engine session)
+foreach(library parallel geometry statics fasteners tools verification preparation plan_io samples engine session)
   install(DIRECTORY lib/${library}/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h")
 endforeach()
 install(EXPORT dismantleTargets NAMESPACE dismantle:: DESTINATION "${DISMANTLE_PACKAGE_DIR}")

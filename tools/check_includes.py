@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Fails when the source tree breaks the rules of docs/architecture.md, "The include rule":
 
-- core <- process; core <- parallel <- geometry <- fasteners, verification <- preparation, plan_io <- book, orders, engine <- host <- session <- apps, bench: no #include against the arrows;
+- core <- process; core <- parallel <- geometry <- fasteners (<- tools), verification <- preparation, plan_io <- book, orders, engine <- host <- session <- apps, bench: no #include against the arrows;
 - a plugin includes core, geometry, the plugin sdk and the shared libraries of its kind (folders without a plugin: KIND/common and
-  others that build a library), an importer also process, a step check also statics or fasteners; never another plugin;
+  others that build a library), an importer also process, a step check also statics, fasteners or tools; never another plugin;
 - core has at most 2500 lines of code (comments and empty lines are free), a file 400, a class 40 methods (a rough count of the declarations in its body)."""
 import argparse
 import os
@@ -25,6 +25,7 @@ ALLOWED = {
     "lib/geometry": set(),
     "lib/statics": {"lib/geometry"},
     "lib/fasteners": {"lib/geometry"},
+    "lib/tools": {"lib/geometry", "lib/fasteners"},
     "lib/verification": {"lib/geometry"},
     "lib/preparation": {"lib/geometry", "lib/fasteners", "lib/verification"},
     "lib/plan_io": {"lib/geometry"},
@@ -41,7 +42,7 @@ ALLOWED = {
 }
 PLUGIN_MAY = {"lib/geometry", "plugins/sdk"}
 IMPORTER_MAY = PLUGIN_MAY | {"lib/process"}
-CHECK_MAY = PLUGIN_MAY | {"lib/statics", "lib/fasteners"}
+CHECK_MAY = PLUGIN_MAY | {"lib/statics", "lib/fasteners", "lib/tools"}
 # Folders of plugin kinds, and the depth of the plugin folders below them.
 KINDS = {"simulators": 1, "plugins/importers": 1, "planners": 2}
 

@@ -1,0 +1,160 @@
+#include "section.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace dismantle::tools {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+double point_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 ab = b - a;
+  const double length2 = ab.squaredNorm(), t = length2 > 0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0;
+  return (p - a - t * ab).norm();
+}
+
+bool segments_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  return cross(b - a, c - a) * cross(b - a, d - a) < 0 && cross(d - c, a - c) * cross(d - c, b - c) < 0;
+}
+
+bool contains(const Piece& piece, const Vec2& p) {
+  bool left = true, right = true;
+  double area = 0;
+  for (std::size_t i = 0; i < piece.count; ++i) {
+    const Vec2 &a = piece.corner[i], &b = piece.corner[(i + 1) % piece.count];
+    const double side = cross(b - a, p - a);
+    left &= side >= 0;
+    right &= side <= 0;
+    area += cross(a, b);
+  }
+  return area != 0 && (left || right);
+}
+
+double distance(const Piece& piece, const Vec2& a, const Vec2& b) {
+  if (contains(piece, a)) return 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < piece.count; ++i) {
+    const Vec2 &c = piece.corner[i], &d = piece.corner[(i + 1) % piece.count];
+    if (segments_cross(a, b, c, d)) return 0;
+    least = std::min({least, point_to_segment(a, c, d), point_to_segment(b, c, d), point_to_segment(c, a, b)});
+  }
+  return least;
+}
+
+/// Separating axes of an upright rectangle and a convex polygon. Touching is not meeting.
+bool meet(const Piece& piece, const Vec2& low, const Vec2& high) {
+  if (!(low.array() < high.array()).all()) return false;
+  Vec2 least = piece.corner[0], most = piece.corner[0];
+  for (std::size_t i = 1; i < piece.count; ++i) {
+    least = least.cwiseMin(piece.corner[i]);
+    most = most.cwiseMax(piece.corner[i]);
+  }
+  if (!(least.array() < high.array()).all() || !(most.array() > low.array()).all()) return false;
+  const Vec2 middle = (low + high) / 2, half = (high - low) / 2;
+  for (std::size_t i = 0; i < piece.count; ++i) {
+    const Vec2 edge = piece.corner[(i + 1) % piece.count] - piece.corner[i], normal(edge.y(), -edge.x());
+    double lo = std::numeric_limits<double>::infinity(), hi = -lo;
+    for (std::size_t k = 0; k < piece.count; ++k) {
+      const double at = normal.dot(piece.corner[k] - middle);
+      lo = std::min(lo, at);
+      hi = std::max(hi, at);
+    }
+    const double reach = half.dot(normal.cwiseAbs());
+    if (normal != Vec2::Zero() && (lo >= reach || hi <= -reach)) return false;
+  }
+  return true;
+}
+
+Piece turned(const Piece& piece, double angle) {
+  Piece out = piece;
+  const double c = std::cos(angle), s = std::sin(angle);
+  for (std::size_t i = 0; i < piece.count; ++i) {
+    const Vec2& p = piece.corner[i];
+    out.corner[i] = {c * p.x() - s * p.y(), s * p.x() + c * p.y()};
+  }
+  return out;
+}
+
+/// Of points, each widened by an angle to both sides, of a convex set that does not contain the axis.
+Directions directions_of(const Vec2* points, const double* widths, std::size_t count) {
+  const double first = std::atan2(points[0].y(), points[0].x());
+  double lo = 0, hi = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double at = std::remainder(std::atan2(points[i].y(), points[i].x()) - first, 2 * std::numbers::pi);
+    lo = std::min(lo, at - widths[i]);
+    hi = std::max(hi, at + widths[i]);
+  }
+  return {first + (lo + hi) / 2, (hi - lo) / 2 + 1e-12};
+}
+
+constexpr double kAll = 4;  // more than pi
+
+}  // namespace
+
+std::optional<Piece> piece_of(const std::array<Eigen::Vector3d, 3>& triangle, double low, double high) {
+  std::array<Eigen::Vector3d, 5> polygon{triangle[0], triangle[1], triangle[2]}, cut;
+  std::size_t count = 3;
+  for (const double sign : {1.0, -1.0}) {
+    const double level = sign * (sign > 0 ? low : high);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3d &a = polygon[i], &b = polygon[(i + 1) % count];
+      const double over_a = sign * a.z() - level, over_b = sign * b.z() - level;
+      if (over_a > 0) cut[kept++] = a;
+      if ((over_a > 0) != (over_b > 0)) cut[kept++] = a + over_a / (over_a - over_b) * (b - a);
+    }
+    if (kept == 0) return std::nullopt;
+    polygon = cut;
+    count = kept;
+  }
+  Piece piece;
+  piece.count = count;
+  for (std::size_t i = 0; i < count; ++i) {
+    piece.corner[i] = polygon[i].head<2>();
+    piece.farthest = std::max(piece.farthest, piece.corner[i].norm());
+  }
+  piece.nearest = distance(piece, Vec2::Zero(), Vec2::Zero());
+  constexpr std::array<double, 5> kNone{};
+  piece.directions = piece.nearest > 0 ? directions_of(piece.corner.data(), kNone.data(), count) : Directions{0, kAll};
+  return piece;
+}
+
+Outline::Outline(const Volume& v) : volume(&v) {
+  const double wide = v.form == Form::obround ? v.radius : 0;
+  if (v.form == Form::obround) {
+    nearest = std::max(0.0, point_to_segment(Vec2::Zero(), v.from, v.to) - wide);
+    farthest = std::max(v.from.norm(), v.to.norm()) + wide;
+    const std::array<Vec2, 2> ends{v.from, v.to};
+    directions = {0, kAll};
+    if (nearest > 0) {
+      const std::array<double, 2> widths{std::asin(wide / v.from.norm()), std::asin(wide / v.to.norm())};
+      directions = directions_of(ends.data(), widths.data(), 2);
+    }
+  } else {
+    const std::array<Vec2, 4> corners{v.from, Vec2{v.to.x(), v.from.y()}, v.to, Vec2{v.from.x(), v.to.y()}};
+    nearest = v.from.cwiseMax(-v.to).cwiseMax(0).norm();
+    farthest = 0;
+    for (const Vec2& c : corners) farthest = std::max(farthest, c.norm());
+    constexpr std::array<double, 4> kNone{};
+    directions = nearest > 0 ? directions_of(corners.data(), kNone.data(), 4) : Directions{0, kAll};
+  }
+}
+
+bool Outline::clear(const Piece& piece, double angle, double margin) const {
+  const Piece at = turned(piece, angle);
+  if (volume->form == Form::obround) return distance(at, volume->from, volume->to) > volume->radius + margin;
+  return !meet(at, volume->from.array() - margin, volume->to.array() + margin);
+}
+
+bool Outline::pierced(const Piece& piece, double angle, double margin) const {
+  const Piece at = turned(piece, angle);
+  if (volume->form == Form::obround) return distance(at, volume->from, volume->to) < volume->radius - margin;
+  return meet(at, volume->from.array() + margin, volume->to.array() - margin);
+}
+
+}  // namespace dismantle::tools

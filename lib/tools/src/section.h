@@ -1,0 +1,41 @@
+// Triangles and volumes seen along the axis: polygons and outlines in the plane.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+
+#include "dismantle/tools/catalogue.h"
+
+namespace dismantle::tools {
+
+/// Range of directions as seen from the axis.
+struct Directions {
+  double middle = 0, half = 0;  // half >= pi: all
+};
+
+/// The part of a triangle between two heights, seen along the axis: a convex polygon, perhaps without area.
+struct Piece {
+  std::array<Eigen::Vector2d, 5> corner;
+  std::size_t count = 0;
+  double nearest = 0, farthest = 0;  // from the axis
+  Directions directions{};
+};
+
+/// None: the triangle has no point between the heights.
+std::optional<Piece> piece_of(const std::array<Eigen::Vector3d, 3>& triangle, double low, double high);
+
+/// A box or an obround seen along the axis.
+struct Outline {
+  const Volume* volume;
+  double nearest, farthest;  // from the axis
+  Directions directions;
+
+  explicit Outline(const Volume& v);
+  /// True proves that the piece, turned by `angle`, is farther than `margin` from the outline.
+  bool clear(const Piece& piece, double angle, double margin) const;
+  /// True proves that the piece, turned by `angle`, has a point inside the outline farther than `margin` from its edge.
+  bool pierced(const Piece& piece, double angle, double margin) const;
+};
+
+}  // namespace dismantle::tools

@@ -1,0 +1,193 @@
+// Small random scenes against sampled placements, which FCL tests on the triangles.
+#include <fcl/fcl.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "frame.h"
+#include "scene.h"
+
+namespace dismantle::tools {
+namespace {
+
+using namespace test;
+using std::numbers::pi;
+using Model = fcl::BVHModel<fcl::OBBd>;
+
+Mesh block(Rng& rng, double near, double far, double top) {
+  Mesh mesh = rng.below(3) == 0 ? shapes::tube(rng.uniform() < 0.5 ? 0 : 3, rng.uniform(4, 9), -6, 6, 11)
+                                : shapes::box({0, 0, 0}, shapes::random_vector(rng, 2, 25));
+  const double angle = rng.uniform(0, 2 * pi), r = rng.uniform(near, far);
+  Pose pose = shapes::random_pose(rng, 0);
+  pose.t = {r * std::cos(angle), r * std::sin(angle), rng.uniform(-5, top)};
+  return shapes::moved(mesh, pose);
+}
+
+/// A key of one or two arms, a driver, or a tool with a rounded end; sometimes with a hand.
+Tool random_tool(Rng& rng) {
+  Tool tool;
+  Use& use = tool.uses.emplace_back();
+  const double height = rng.uniform(10, 25), length = rng.uniform(20, 60), wide = rng.uniform(1, 4);
+  use.swing = rng.uniform() < 0.3 ? 0 : rng.uniform(0.1, 1.5);
+  use.depth = rng.uniform(0, 4);
+  use.tool = {tube(wide, 0, height), box({0, -wide}, {length, wide}, height - 2 * wide, height)};
+  if (rng.below(2) == 0) use.tool.push_back(box({-length / 2, -wide / 2}, {0, wide}, height - wide, height));
+  use.hand = {obround({length - 5, 0}, {length + 5, 0}, 6, height - 8, height + 8)};
+  return tool;
+}
+
+struct Bodies {
+  std::vector<std::pair<std::shared_ptr<fcl::CollisionGeometryd>, Eigen::Vector3d>> shapes;  // middle
+
+  explicit Bodies(const std::vector<Volume>& volumes) {
+    for (const Volume& v : volumes) {
+      const double high = v.high - v.low, z = (v.low + v.high) / 2;
+      const auto cylinder = [&](const Eigen::Vector2d& at) {
+        shapes.emplace_back(std::make_shared<fcl::Cylinderd>(v.radius, high), Eigen::Vector3d(at.x(), at.y(), z));
+      };
+      const Eigen::Vector2d middle = (v.from + v.to) / 2, size = v.to - v.from;
+      if (v.form == Form::tube) cylinder({0, 0});
+      if (v.form == Form::box)
+        shapes.emplace_back(std::make_shared<fcl::Boxd>(size.x(), size.y(), high),
+                            Eigen::Vector3d(middle.x(), middle.y(), z));
+      if (v.form == Form::obround) {  // along x in these tests
+        cylinder(v.from);
+        cylinder(v.to);
+        shapes.emplace_back(std::make_shared<fcl::Boxd>(size.x(), 2 * v.radius, high),
+                            Eigen::Vector3d(middle.x(), middle.y(), z));
+      }
+    }
+  }
+};
+
+class Brute {
+ public:
+  Brute(const std::vector<Mesh>& parts, const Use& use, const Fastener& fastener)
+      : frame_(use, fastener), resting_(use.tool), parts_(parts) {
+    std::vector<Volume> resting = use.tool;
+    resting.insert(resting.end(), use.hand.begin(), use.hand.end());
+    resting_ = Bodies(resting);
+    lift_ = fastener.travel + use.depth;
+    for (const Mesh& part : parts) {
+      auto model = std::make_shared<Model>();
+      model->beginModel();
+      for (std::size_t t = 0; t < part.triangles.size(); ++t)
+        model->addTriangle(part.vertex(t, 0), part.vertex(t, 1), part.vertex(t, 2));
+      model->endModel();
+      models_.push_back(std::move(model));
+    }
+  }
+  /// The tool at an angle and a height above its seat.
+  bool free(double angle, double height) const {
+    const Eigen::Matrix3d turn = frame_.axes * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ());
+    for (const auto& [shape, middle] : resting_.shapes) {
+      fcl::Transform3d at = fcl::Transform3d::Identity();
+      at.linear() = turn;
+      at.translation() = frame_.origin + turn * (middle + height * Eigen::Vector3d::UnitZ());
+      for (std::size_t i = 0; i < models_.size(); ++i) {
+        fcl::CollisionResultd result;
+        if (fcl::collide(shape.get(), at, models_[i].get(), fcl::Transform3d::Identity(), fcl::CollisionRequestd(),
+                         result) > 0)
+          return false;
+      }
+    }
+    return true;
+  }
+  /// The whole travel, in samples; most heights stop at the first hit.
+  bool free_swing(double start, double swing, int samples) const {
+    for (int k = 0; k <= samples; ++k)
+      for (int h = 0; h <= samples; ++h)
+        if (!free(start + swing * k / samples, lift_ * h / samples)) return false;
+    return true;
+  }
+
+ private:
+  Frame frame_;
+  Bodies resting_;
+  const std::vector<Mesh>& parts_;
+  double lift_ = 0;
+  std::vector<std::shared_ptr<Model>> models_;
+};
+
+/// Laws: a placement that is reported meets nothing anywhere on its travel; where none is, every sampled one meets
+/// something. Neither answer is rare, and some placements have little room.
+TEST(FindAccess, AgreesWithSampledPlacements) {
+  Rng rng(55);
+  int reached = 0, blocked = 0, narrow = 0;
+  for (int round = 0; round < 120; ++round) {
+    std::vector<Mesh> parts;
+    for (auto n = 2 + rng.below(14); n > 0; --n) parts.push_back(block(rng, 14, 60, 30));
+    const Tool tool = random_tool(rng);
+    Fastener fastener = m3();
+    fastener.travel = rng.uniform(0, 6);
+    fastener.axis = shapes::random_pose(rng, 0).q * Vec3::UnitZ();
+    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), fastener.axis);
+    for (Mesh& part : parts) part = shapes::moved(part, {Vec3::Zero(), turn});
+    const Scene scene(parts, fastener);
+    const Use& use = tool.uses.front();
+    const Brute brute(parts, use, fastener);
+    const Access access = scene.find(tool);
+    if (access.reaches()) {
+      ++reached;
+      EXPECT_TRUE(brute.free_swing(access.start, use.swing, 12)) << "round " << round;
+      continue;
+    }
+    ++blocked;
+    ASSERT_FALSE(access.in_the_way.empty());
+    for (int k = 0; k < 60; ++k)
+      EXPECT_FALSE(brute.free_swing(rng.uniform(0, 2 * pi), use.swing, 24)) << "round " << round;
+    // Without the parts that are in the way it has room, and they are the fewest.
+    std::vector<Obstacle> left;
+    std::vector<Mesh> kept;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (std::find(access.in_the_way.begin(), access.in_the_way.end(), i) == access.in_the_way.end())
+        left.push_back(scene.obstacles()[i]), kept.push_back(parts[i]);
+    const Access room = find_access(tool, fastener, left);
+    ASSERT_TRUE(room.reaches()) << "round " << round;
+    EXPECT_TRUE(Brute(kept, use, fastener).free_swing(room.start, use.swing, 12)) << "round " << round;
+    narrow += access.in_the_way.size() > 1;
+    for (std::size_t without = 0; access.in_the_way.size() > 1 && without < parts.size(); ++without) {
+      std::vector<Obstacle> others = scene.obstacles();
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(without));
+      EXPECT_FALSE(find_access(tool, fastener, others).reaches()) << "round " << round << " part " << without;
+    }
+  }
+  EXPECT_GE(reached, 30);
+  EXPECT_GE(blocked, 30);
+  EXPECT_GE(narrow, 5);
+}
+
+/// Law: however little room there is, it is found. Blocks leave a gap that is wider than the swing by a thousandth of a
+/// turn.
+TEST(FindAccess, FindsTheLastGap) {
+  Rng rng(56);
+  for (int round = 0; round < 60; ++round) {
+    Tool tool;
+    Use& use = tool.uses.emplace_back();
+    use.swing = rng.uniform(0.05, 1);
+    const double half = rng.uniform(1, 3), gap = rng.uniform(0, 2 * pi), spare = 2 * pi * rng.uniform(2e-4, 1e-3);
+    use.tool = {box({0, -half}, {50, half}, 10, 14)};
+    // Posts at 40 mm; the handle touches one of radius 1 at asin((half + 1) / 40) from its middle.
+    std::vector<Mesh> posts;
+    const double touch = std::asin((half + 1) / 40);
+    const auto post = [&](double angle) {
+      posts.push_back(shapes::tube(0, 1, 0, 30, 96, 1, rng.uniform()));
+      for (Vec3& p : posts.back().vertices) p += Vec3(40 * std::cos(angle), 40 * std::sin(angle), 0);
+    };
+    const double width = use.swing + spare + 2 * touch;
+    for (double angle = width; angle < 2 * pi; angle += 1.9 * touch) post(gap + angle);
+    post(gap);
+    const Fastener fastener = m3();
+    const Access access = Scene(posts, fastener).find(tool);
+    ASSERT_TRUE(access.reaches()) << "round " << round;
+    EXPECT_TRUE(Brute(posts, use, fastener).free_swing(access.start, use.swing, 30));
+    use.swing += 2 * spare + 1e-3;
+    const Access more = Scene(posts, fastener).find(tool);
+    EXPECT_FALSE(more.reaches()) << "round " << round;
+    EXPECT_EQ(more.in_the_way.size(), 1u);
+  }
+}
+
+}  // namespace
+}  // namespace dismantle::tools
