@@ -1,0 +1,200 @@
+#include "fastener_memo.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dismantle/fasteners/name.h"
+#include "dismantle/fasteners/recognise.h"
+#include "dismantle/geometry/face_axes.h"
+
+namespace dismantle::checks {
+namespace {
+
+using fasteners::Drive;
+using fasteners::Kind;
+using fasteners::Shape;
+
+/// As the assembly says, else by shape and name.
+PartKind kind_of(const Part& part, const Shape& shape) {
+  if (part.kind) return *part.kind;
+  fasteners::NameSays name;
+  if (!part.product.empty()) name = fasteners::recognise_name(part.product);
+  if (!name.kind) name = fasteners::recognise_name(part.name);
+  return fasteners::combined(shape, name);
+}
+
+/// A circlip is cut from sheet and is no closed ring: most of its surface is two faces across its axis.
+bool lay_circlip(const Mesh& mesh, double mm, tools::Fastener& fastener) {
+  std::vector<geometry::FaceAxis> faces;
+  double area = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Eigen::Vector3d normal = geometry::area_vector(mesh, t);
+    const double size = normal.norm();
+    if (size > 0) faces.push_back({normal / size, size});
+    area += size;
+  }
+  auto axes = geometry::rounded_axes(faces);
+  geometry::sort_by_area(axes, 1);
+  if (axes.empty() || axes.front().area < 0.4 * area) return false;
+  fastener.axis = axes.front().axis.normalized();
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d u = fastener.axis.unitOrthogonal(), v = fastener.axis.cross(u);
+  Eigen::Vector2d least = Eigen::Vector2d::Constant(low), most = -least;
+  for (const Eigen::Vector3d& p : mesh.vertices) {
+    const Eigen::Vector2d flat(u.dot(p), v.dot(p));
+    least = least.cwiseMin(flat);
+    most = most.cwiseMax(flat);
+    low = std::min(low, fastener.axis.dot(p));
+    high = std::max(high, fastener.axis.dot(p));
+  }
+  const Eigen::Vector2d center = (least + most) / 2;
+  middle = center.x() * u + center.y() * v;
+  fastener.top = middle + high * fastener.axis;
+  for (const Eigen::Vector3d& p : mesh.vertices)
+    fastener.radius = std::max(fastener.radius, mm * (p - middle).cross(fastener.axis).norm());
+  fastener.grip = mm * (high - low);
+  fastener.size = 2 * fastener.radius;
+  fastener.kind = Kind::ring;
+  return true;
+}
+
+}  // namespace
+
+FastenerMemo::FastenerMemo(const Assembly& assembly)
+    : assembly_(assembly),
+      mm_(fasteners::millimetres_per_unit(assembly)),
+      surface_once_(assembly.parts.size()),
+      driven_once_(assembly.parts.size()),
+      surfaces_(assembly.parts.size()),
+      driven_(assembly.parts.size()) {
+  for (const Part& part : assembly.parts) meshes_.push_back(part.mesh);
+}
+
+bool FastenerMemo::is_of(const Assembly& assembly) const {
+  return &assembly == &assembly_ &&
+         std::equal(meshes_.begin(), meshes_.end(), assembly.parts.begin(), assembly.parts.end(),
+                    [](const std::shared_ptr<const Mesh>& mesh, const Part& part) { return mesh == part.mesh; });
+}
+
+const TriangleBvh& FastenerMemo::surface(PartId part) const {
+  std::call_once(surface_once_[part], [&] {
+    const Part& p = assembly_.parts[part];
+    surfaces_[part] =
+        std::make_unique<TriangleBvh>(*p.mesh, geometry::Poll{}, p.open ? Surface::open : Surface::closed);
+  });
+  return *surfaces_[part];
+}
+
+const Driven* FastenerMemo::driven(PartId part) const {
+  std::call_once(driven_once_[part], [&] { driven_[part] = look_at(assembly_.parts[part]); });
+  return driven_[part] ? &*driven_[part] : nullptr;
+}
+
+std::optional<Driven> FastenerMemo::look_at(const Part& part) const {
+  if (part.open) return std::nullopt;
+  const auto among = [](Kind kind) { return kind == Kind::screw || kind == Kind::nut || kind == Kind::ring; };
+  if (part.kind && !among(fasteners::kind_from_string(part.kind->kind).value_or(Kind::other))) return std::nullopt;
+  const Shape shape = fasteners::recognise_shape(*part.mesh, mm_);
+  const PartKind said = kind_of(part, shape);
+  const Kind kind = fasteners::kind_from_string(said.kind).value_or(Kind::other);
+  if (!among(kind)) return std::nullopt;
+  Driven out;
+  out.part = part.id;
+  out.size = said.size;
+  tools::Fastener& f = out.fastener;
+  f.mm = mm_;
+  f.kind = kind;
+  if (kind == Kind::ring) {
+    const bool open_ring = shape.kind == Kind::other || shape.kind == Kind::plate;
+    if (!open_ring || !lay_circlip(*part.mesh, mm_, f)) return std::nullopt;
+    out.either_side = true;
+    find_partners(out, shape);
+    return out;
+  }
+  // The ring inside a lock nut turns with it.
+  if (kind == Kind::nut && shape.kind != Kind::nut && shape.drive == Drive::none) return std::nullopt;
+  f.top = shape.top;
+  f.axis = shape.axis;
+  f.drive = shape.drive;
+  f.size = shape.drive_size;
+  f.radius = shape.radius * mm_;
+  f.grip = mm_ * (kind == Kind::nut ? shape.height : shape.head_height);
+  const double length = mm_ * shape.height - (kind == Kind::nut ? 0 : f.grip);
+  // A thread bears over two diameters at most; before that, a screw is put in by hand.
+  f.travel = kind == Kind::nut ? length : std::min(length, 4 * mm_ * shape.shank_radius);
+  if (kind == Kind::screw && f.grip == 0) f.travel = std::min(mm_ * shape.height, 4 * mm_ * shape.shank_radius);
+  out.either_side = kind == Kind::nut;
+  find_partners(out, shape);
+  return out;
+}
+
+void FastenerMemo::find_partners(Driven& driven, const Shape& shape) const {
+  const tools::Fastener& f = driven.fastener;
+  const double height = f.kind == Kind::ring ? f.grip / mm_ : shape.height;
+  const double radius = f.kind == Kind::ring ? f.radius / mm_ : shape.shank_radius;
+  const Eigen::Vector3d at = f.top - (f.kind == Kind::screw ? 0.85 : 0.5) * height * f.axis;
+  std::vector<std::pair<double, PartId>> near;
+  for (const Part& part : assembly_.parts) {
+    if (part.id == driven.part) continue;
+    const double limit = 1.5 * radius;
+    if (part.mesh->box().squared_distance(at) > limit * limit) continue;
+    const TriangleBvh& other = surface(part.id);
+    // What is in a hole is nearer than what is around it.
+    const double distance =
+        f.kind != Kind::screw && !part.open && other.inside(at) ? 0 : other.closest(at, limit).distance;
+    if (f.kind != Kind::screw && distance > 0.9 * radius) continue;
+    if (distance <= limit) near.emplace_back(distance, part.id);
+  }
+  std::sort(near.begin(), near.end());
+  for (const auto& [distance, part] : near) driven.partners.push_back(part);
+}
+
+tools::Fastener FastenerMemo::driven_by(const Driven& driven, std::optional<PartId> partner, bool flipped) const {
+  tools::Fastener f = driven.fastener;
+  if (flipped) {
+    f.top -= f.grip / mm_ * f.axis;
+    f.axis = -f.axis;
+  }
+  if (!partner || f.kind != Kind::nut) return f;
+  double high = 0;
+  for (const Eigen::Vector3d& p : assembly_.parts[*partner].mesh->vertices) {
+    const Eigen::Vector3d from = p - f.top;
+    if (mm_ * from.cross(f.axis).norm() < 0.7 * f.radius) high = std::max(high, mm_ * from.dot(f.axis));
+  }
+  f.travel = std::max(f.travel, high);
+  return f;
+}
+
+tools::Access FastenerMemo::room(const Driven& driven, const tools::Fastener& fastener, bool flipped,
+                                 const tools::Use& use, std::size_t place, std::span<const PlacedPart> there,
+                                 const Pose& pose, bool hand) const {
+  std::shared_ptr<Row> row;
+  {
+    const std::lock_guard lock(mutex_);
+    auto& known = rows_[{driven.part, flipped, fastener.travel, place, hand}];
+    if (!known) known = std::make_shared<Row>(assembly_.parts.size());
+    row = known;
+  }
+  std::vector<const tools::Arcs*> blocked;
+  std::vector<tools::Arcs> moved(there.size());
+  const Pose back = pose.inverse();
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    const PartId part = there[i].part;
+    const bool closed = !assembly_.parts[part].open;
+    const bool in_place = there[i].pose == pose || (back * there[i].pose).is_identity(1e-12);
+    if (in_place)
+      std::call_once(row->once[part], [&] {
+        row->arcs[part] = tools::blocked_angles(use, fastener, {&surface(part), closed}, hand);
+      });
+    else
+      moved[i] = tools::blocked_angles(use, fastener, {&surface(part), closed, back * there[i].pose}, hand);
+    blocked.push_back(in_place ? &row->arcs[part] : &moved[i]);
+  }
+  tools::Access access = tools::room_for(use, fastener, blocked);
+  access.handle = pose.q * access.handle;
+  for (std::size_t& index : access.in_the_way) index = there[index].part;
+  return access;
+}
+
+}  // namespace dismantle::checks
