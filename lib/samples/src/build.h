@@ -43,6 +43,7 @@ std::vector<Maker> interlock_makers();  // interlock.cpp
 std::vector<Maker> machine_makers();    // machine.cpp
 std::vector<Maker> pressed_makers();  // pressed.cpp: pins, screws and seals with overlap around the whole circumference
 std::vector<Maker> flexible_makers();  // flexible.cpp: clips, springs, gears
+std::vector<Maker> pile_makers();      // piles.cpp: blocks that touch, with known statics
 std::vector<Maker> doubled_makers();   // doubled.cpp: two solids that fill the same space
 
 /// Adds a part after checking that it is a solid. Returns its name.

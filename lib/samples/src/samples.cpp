@@ -26,7 +26,7 @@ const std::vector<Maker>& makers() {
   static const std::vector<Maker> all = [] {
     std::vector<Maker> list;
     for (auto& group : {fit_makers(), slot_makers(), turning_makers(), leg_makers(), interlock_makers(),
-                        machine_makers(), pressed_makers(), flexible_makers(), doubled_makers()})
+                        machine_makers(), pressed_makers(), flexible_makers(), doubled_makers(), pile_makers()})
       list.insert(list.end(), group.begin(), group.end());
     for (Maker& m : list) m.sample.params.push_back(rotate_seed_spec());
     return list;
