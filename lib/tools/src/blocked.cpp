@@ -87,17 +87,18 @@ Eigen::Vector3d point_of(const Volume& v, double angle) {
   return {std::cos(angle) * p.x() - std::sin(angle) * p.y(), std::sin(angle) * p.x() + std::cos(angle) * p.y(), z};
 }
 
-/// A volume without a triangle in it may be inside the part.
+/// A tool without a triangle in it may be inside the part. It is in one piece: all of it is inside, or nothing.
 void add_buried(const std::vector<Volume>& volumes, const Frame& frame, const Obstacle& obstacle, const Aabb& box,
                 Arcs& blocked) {
   const Arcs before = blocked;
   const Pose back = obstacle.pose.inverse();
   const auto buried = [&](double lo, double hi) {
+    Eigen::Vector3d p;
     for (const Volume& v : volumes) {
-      const Eigen::Vector3d p = back * frame.outward(point_of(v, (lo + hi) / 2));
-      if (box.contains(p) && obstacle.surface->inside(p)) return true;
+      p = back * frame.outward(point_of(v, (lo + hi) / 2));
+      if (!box.contains(p)) return false;
     }
-    return false;
+    return obstacle.surface->inside(p);
   };
   double from = 0;
   for (std::size_t i = 0; i <= before.size(); ++i) {

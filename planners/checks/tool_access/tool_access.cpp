@@ -61,7 +61,7 @@ std::string names(const Assembly& assembly, const std::vector<std::size_t>& part
 
 std::string drive_text(const tools::Fastener& f) {
   if (f.kind == fasteners::Kind::ring) return fmt::format("ring of {:.3g} mm", f.size);
-  return fmt::format("{} {:.3g}", fasteners::to_string(f.drive), f.size);
+  return fmt::format("{} {:.4g}", fasteners::to_string(f.drive), std::round(20 * f.size) / 20);
 }
 
 std::string use_text(const tools::Tool& tool, const tools::Use& use) {
@@ -74,15 +74,17 @@ nlohmann::json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()};
 struct Reach {
   const tools::Tool* tool = nullptr;  // null: none of the catalogue fits
   tools::Access access;
-  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  // where it is
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  // top of the fastener, input units
 };
 
 class Judge {
  public:
   Judge(const FastenerMemo& memo, const std::vector<tools::Tool>& all, bool hand, const StepQuestion& question)
-      : memo_(memo), all_(all), hand_(hand), q_(question) {}
+      : memo_(memo), all_(all), hand_(hand), q_(question), held_(all.size()) {}
 
   StepVerdict verdict() {
+    take_up_held();
     for (const PlacedPart& part : q_.moving)
       if (const Driven* driven = memo_.driven(part.part)) look_at(*driven, part.pose);
     verdict_.cost = unreached_ + kChange * changes_;
@@ -117,6 +119,9 @@ class Judge {
     }
     const tools::Fastener& f = driven.fastener;
     if (!partner && f.kind != fasteners::Kind::screw) return;
+    // A nut that is put in across its axis goes into a trap and is not screwed on.
+    if (f.kind == fasteners::Kind::nut && !q_.direction.isZero() && std::abs(q_.direction.dot(pose.q * f.axis)) < 0.1)
+      return;
     const bool no_drive = f.kind != fasteners::Kind::ring && (f.drive == fasteners::Drive::none || !(f.size > 0));
     const bool no_size = f.kind != fasteners::Kind::ring && (driven.size.empty() || driven.size.front() == '?');
     const char* why = memo_.assembly().unit.empty() ? "the input states no unit"
@@ -131,14 +136,12 @@ class Judge {
     report(driven, reach(driven, partner, pose));
   }
 
-  /// Tools that fit a fastener of the step before.
-  std::vector<bool> held() const {
-    std::vector<bool> out(all_.size());
-    if (q_.previous == nullptr) return out;
+  /// Tools that fit a fastener of the step before: one of them is in the hand.
+  void take_up_held() {
+    if (q_.previous == nullptr) return;
     for (const PlacedPart& part : q_.previous->moving)
       if (const Driven* driven = memo_.driven(part.part))
-        for (std::size_t t = 0; t < all_.size(); ++t) out[t] = out[t] || tools::fits(all_[t], driven->fastener);
-    return out;
+        for (std::size_t t = 0; t < all_.size(); ++t) held_[t] = held_[t] || tools::fits(all_[t], driven->fastener);
   }
 
   Reach reach(const Driven& driven, std::optional<PartId> partner, const Pose& pose) {
@@ -150,7 +153,7 @@ class Judge {
     std::vector<bool> sides{driven.either_side && against < 0};
     if (driven.either_side && std::abs(against) < 0.1) sides.push_back(!sides.front());
     Reach best;
-    const std::vector<bool> in_hand = held();
+    const std::vector<bool> in_hand = held_;
     for (const bool first : {true, false}) {
       std::size_t place = 0;
       for (std::size_t t = 0; t < all_.size(); place += all_[t++].uses.size()) {
@@ -158,10 +161,12 @@ class Judge {
         for (const bool flipped : sides) {
           const tools::Fastener fastener = memo_.driven_by(driven, partner, flipped);
           for (std::size_t u = 0; u < all_[t].uses.size(); ++u) {
-            Reach found{&all_[t], {}, pose.q * fastener.axis};
+            Reach found{
+                &all_[t], {}, pose.q * fastener.axis, memo_.assembly().normalization.to_input(pose * fastener.top)};
             found.access = memo_.room(driven, fastener, flipped, all_[t].uses[u], place + u, there, pose, hand_);
             if (found.access.reaches()) {
-              if (q_.previous != nullptr && !first) ++changes_;
+              if (!first && (q_.previous != nullptr || used_)) ++changes_;
+              held_[t] = used_ = true;
               return found;
             }
             if (best.tool == nullptr || found.access.in_the_way.size() < best.access.in_the_way.size())
@@ -185,6 +190,7 @@ class Judge {
       note("tool", std::move(text), driven,
            {{"tool", found.tool->id},
             {"use", use.name},
+            {"at", json_of(found.at)},
             {"from", json_of(found.axis)},
             {"handle", json_of(found.access.handle)},
             {"swing", use.swing}});
@@ -212,6 +218,8 @@ class Judge {
   bool hand_;
   const StepQuestion& q_;
   StepVerdict verdict_;
+  std::vector<bool> held_;  // by tool
+  bool used_ = false;       // a tool, in this step
   int unreached_ = 0, changes_ = 0;
 };
 

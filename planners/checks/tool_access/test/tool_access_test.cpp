@@ -94,6 +94,9 @@ TEST(ToolAccess, AScrewInAWell) {
     EXPECT_NE(v.notes[0].text.find("M3x10, hex socket 2.5"), std::string::npos) << v.notes[0].text;
     const Vector3d from(data["from"][0], data["from"][1], data["from"][2]);
     EXPECT_LT((from + down).norm(), 1e-3);
+    const Vector3d at(data["at"][0], data["at"][1], data["at"][2]);
+    const double mm = std::string(unit) == "m" ? 1000 : std::string(unit) == "inch" ? 25.4 : 1;
+    EXPECT_LT((mm * at - pose * Vector3d(0, 0, 3)).norm(), 0.02);
     const Vector3d handle(data["handle"][0], data["handle"][1], data["handle"][2]);
     EXPECT_NEAR(handle.dot(from), 0, 1e-9);
 
@@ -173,6 +176,8 @@ TEST(ToolAccess, ANutIsTightenedOnTheScrewThatIsThere) {
   v = judge(ToolAccess(), assembly, {nut}, {screw_id, box}, Vector3d::UnitZ());
   EXPECT_EQ(v.cost, 1);
   EXPECT_EQ(data_of(v, "blocked")["in_the_way"], nlohmann::json::array({"box"}));
+  // Put in across its axis it is not screwed on.
+  EXPECT_TRUE(judge(ToolAccess(), assembly, {nut}, {screw_id, box}, Vector3d::UnitX()).notes.empty());
   // Without the screw there is nothing to tighten.
   v = judge(ToolAccess(), assembly, {nut}, {box}, Vector3d::UnitZ());
   EXPECT_EQ(v.cost, 0);
@@ -234,6 +239,9 @@ TEST(ToolAccess, AChangeOfTheToolCosts) {
   const StepVerdict v = judge(ToolAccess(), assembly, {second}, {plate_id, other}, down, &with_nut);
   EXPECT_NEAR(v.cost, 0.1, 1e-12);
   EXPECT_FALSE(v.reason.empty());
+  // Of several equal fasteners, the first one counts.
+  EXPECT_NEAR(judge(ToolAccess(), assembly, {first, second}, {plate_id}, down, &with_nut).cost, 0.1, 1e-12);
+  EXPECT_EQ(judge(ToolAccess(), assembly, {first, second}, {plate_id}, down).cost, 0);
   // The tool that the step before needs is preferred.
   const ToolAccess two(ToolAccessParams{.only = "hex_driver_2.5, hex_key_2.5"});
   EXPECT_EQ(judge(two, assembly, {second}, {plate_id, first}, down, &previous).cost, 0);
