@@ -4,7 +4,10 @@
 // the angle.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 
 #include "arcs.h"
 #include "dismantle/aabb.h"
@@ -14,69 +17,142 @@
 namespace dismantle::tools {
 namespace {
 
-constexpr int kGrid = 16;        // ranges to begin with
-constexpr int kHalvings = 12;    // of each of them: 1e-4 rad
+constexpr int kHalvings = 16;  // of a turn: 1e-4 rad
+// A range is halved without a look at the other triangles after so many undecided ones: by the first number if their
+// margin is wider than the outline, so that they cannot be proved to meet it.
+constexpr int kWide = 4, kUndecided = 200;
 constexpr double kTouch = 1e-9;  // of a tool's size: what is closer to its ends touches only
 
-class Search {
+/// The triangles of an obstacle in the frame of the tool.
+class Surroundings {
  public:
-  Search(const Outline& outline, const std::vector<Piece>& pieces, Arcs& blocked)
-      : outline_(outline), pieces_(pieces), blocked_(blocked) {}
+  Surroundings(const Frame& frame, const Obstacle& obstacle)
+      : surface_(*obstacle.surface),
+        turn_(frame.mm * frame.axes.transpose() * obstacle.pose.q.toRotationMatrix()),
+        size_(turn_.cwiseAbs()),
+        shift_(frame.inward(obstacle.pose.t)) {}
 
-  void run() {
-    std::vector<std::uint32_t> all(pieces_.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint32_t>(i);
-    for (int k = 0; k < kGrid; ++k) descend(kTurn * k / kGrid, kTurn * (k + 1) / kGrid, kHalvings, all);
+  /// A box of the hierarchy, seen along the axis.
+  struct Bound {
+    Eigen::Vector2d middle;
+    double reach, low, high;
+  };
+  /// Calls visit(triangle) for the triangles of the boxes with may_meet(bound), until one returns false.
+  template <class MayMeet, class Visit>
+  void visit(const MayMeet& may_meet, const Visit& visit) const {
+    std::array<std::uint32_t, 192> stack;
+    std::size_t top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+      const std::uint32_t id = stack[--top];
+      const TriangleBvh::Node& node = surface_.nodes()[id];
+      if (!may_meet(bound(node.box))) continue;
+      if (node.count == 0) {
+        stack[top++] = node.first;
+        stack[top++] = id + 1;
+        continue;
+      }
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+        auto corners = surface_.corners(surface_.order()[i]);
+        for (Eigen::Vector3d& p : corners) p = turn_ * p + shift_;
+        if (!visit(corners)) return;
+      }
+    }
   }
 
  private:
-  void descend(double lo, double hi, int halvings, const std::vector<std::uint32_t>& list) {
-    const double middle = (lo + hi) / 2, half = (hi - lo) / 2;
-    std::vector<std::uint32_t> left;
-    for (const std::uint32_t id : list) {
-      const Piece& piece = pieces_[id];
-      const double off = std::remainder(piece.directions.middle - outline_.directions.middle - middle, kTurn);
-      if (std::abs(off) > piece.directions.half + outline_.directions.half + half) continue;
-      const double margin = half * std::min(piece.farthest, outline_.farthest) * (1 + 1e-12);
-      if (outline_.clear(piece, -middle, margin)) continue;
-      if (outline_.pierced(piece, -middle, margin)) return block(lo, hi);
-      left.push_back(id);
-    }
-    if (left.empty()) return;
-    if (halvings == 0) return block(lo, hi);
-    descend(lo, middle, halvings - 1, left);
-    descend(middle, hi, halvings - 1, left);
-  }
-  void block(double lo, double hi) {
-    if (!blocked_.empty() && blocked_.back().second == lo)
-      blocked_.back().second = hi;
-    else
-      blocked_.emplace_back(lo, hi);
+  Bound bound(const Aabb& box) const {
+    const Eigen::Vector3d middle = turn_ * box.center() + shift_, half = size_ * box.size() / 2;
+    return {middle.head<2>(), half.head<2>().norm(), middle.z() - half.z(), middle.z() + half.z()};
   }
 
+  const TriangleBvh& surface_;
+  Eigen::Matrix3d turn_, size_;
+  Eigen::Vector3d shift_;
+};
+
+/// The region of a volume at all angles.
+struct Ring {
+  double nearest, farthest, low, high;
+  bool may_meet(const Surroundings::Bound& b) const {
+    const double r = b.middle.norm();
+    return b.low < high && b.high > low && r - b.reach < farthest && r + b.reach > nearest;
+  }
+  std::optional<Piece> piece(const std::array<Eigen::Vector3d, 3>& triangle) const {
+    auto out = piece_of(triangle, low, high);
+    if (out && (out->nearest >= farthest || out->farthest <= nearest)) out.reset();
+    return out;
+  }
+};
+
+/// The blocked angles of one volume that is no tube.
+class Search {
+ public:
+  Search(const Outline& outline, const Ring& ring, const Surroundings& around, const Arcs& known, Arcs& blocked)
+      : outline_(outline), ring_(ring), around_(around), known_(known), blocked_(blocked) {}
+
+  void descend(double lo, double hi, int halvings) {
+    if (known(lo, hi)) return;
+    const double middle = (lo + hi) / 2, half = (hi - lo) / 2 * (1 + 1e-12);
+    const Eigen::Rotation2Dd back(-middle);
+    bool pierced = false;
+    int wide = 0, undecided = 0;
+    const auto may_meet = [&](const Surroundings::Bound& b) {
+      if (!ring_.may_meet(b)) return false;
+      const double margin = half * std::min(b.middle.norm() + b.reach, outline_.farthest);
+      return outline_.distance_to(back * b.middle) <= b.reach + margin;
+    };
+    around_.visit(may_meet, [&](const std::array<Eigen::Vector3d, 3>& triangle) {
+      const auto piece = ring_.piece(triangle);
+      if (!piece) return true;
+      const double off = std::remainder(piece->directions.middle - outline_.directions.middle - middle, kTurn);
+      if (std::abs(off) > piece->directions.half + outline_.directions.half + half) return true;
+      const double margin = half * std::min(piece->farthest, outline_.farthest);
+      if (outline_.clear(*piece, -middle, margin)) return true;
+      pierced = outline_.pierced(*piece, -middle, margin);
+      wide += margin >= outline_.half_width;
+      return !pierced && wide < kWide && ++undecided < kUndecided;
+    });
+    if (!pierced && wide + undecided == 0) return;
+    if (pierced || halvings == 0) return block(lo, hi);
+    descend(lo, middle, halvings - 1);
+    descend(middle, hi, halvings - 1);
+  }
+
+ private:
+  bool known(double lo, double hi) const {
+    const auto after = std::upper_bound(known_.begin(), known_.end(), std::pair{lo, kTurn});
+    return after != known_.begin() && std::prev(after)->second >= hi;
+  }
+  void block(double lo, double hi) { blocked_.emplace_back(lo, hi); }
+
   const Outline& outline_;
-  const std::vector<Piece>& pieces_;
+  const Ring& ring_;
+  const Surroundings& around_;
+  const Arcs& known_;
   Arcs& blocked_;
 };
 
-/// All angles, or the blocked ones of one volume.
-void add_blocked(const Volume& v, const std::vector<std::array<Eigen::Vector3d, 3>>& triangles, double size,
-                 Arcs& blocked) {
-  const double touch = kTouch * size;
-  std::vector<Piece> pieces;
+/// With what is known to be blocked.
+Arcs blocked_by(const Volume& v, const Surroundings& around, const Arcs& known) {
   const bool tube = v.form == Form::tube;
   const Outline outline(v);
-  const double nearest = tube ? v.inner : outline.nearest, farthest = tube ? v.radius : outline.farthest;
-  for (const auto& triangle : triangles) {
-    const auto piece = piece_of(triangle, v.low + touch, v.high - touch);
-    if (!piece || piece->nearest >= farthest || piece->farthest <= nearest) continue;
-    if (tube) {
-      blocked = {{0, kTurn}};
-      return;
-    }
-    pieces.push_back(*piece);
+  Ring ring{tube ? v.inner : outline.nearest, tube ? v.radius : outline.farthest, v.low, v.high};
+  const double touch = kTouch * std::max(ring.farthest, v.high - v.low);
+  ring.low += touch;
+  ring.high -= touch;
+  Arcs out = known;
+  if (tube) {
+    around.visit([&](const Surroundings::Bound& b) { return ring.may_meet(b); },
+                 [&](const std::array<Eigen::Vector3d, 3>& triangle) {
+                   const bool meets = ring.piece(triangle).has_value();
+                   if (meets) out = {{0, kTurn}};
+                   return !meets;
+                 });
+    return out;
   }
-  if (!pieces.empty()) Search(outline, pieces, blocked).run();
+  Search(outline, ring, around, known, out).descend(0, kTurn, kHalvings);
+  return joined(std::move(out));
 }
 
 /// A point of the volume at an angle.
@@ -112,38 +188,13 @@ void add_buried(const std::vector<Volume>& volumes, const Frame& frame, const Ob
 }  // namespace
 
 Arcs blocked_angles(const Use& use, const Fastener& fastener, const Obstacle& obstacle, bool hand) {
-  const TriangleBvh& surface = *obstacle.surface;
-  if (surface.nodes().empty()) return {};
+  if (obstacle.surface->nodes().empty()) return {};
   const std::vector<Volume> volumes = swept(use, fastener, hand);
   const Frame frame(use, fastener);
-  double radius = 0, low = volumes.front().low, high = volumes.front().high;
-  for (const Volume& v : volumes) {
-    radius = std::max(radius, v.form == Form::tube ? v.radius : Outline(v).farthest);
-    low = std::min(low, v.low);
-    high = std::max(high, v.high);
-  }
-  // The cylinder around everything, in the frame of the part.
-  const Pose back = obstacle.pose.inverse();
-  Aabb around;
-  const Eigen::Vector3d axis = back.q * fastener.axis;
-  const Eigen::Vector3d disc = radius / frame.mm * (1 - axis.array().square()).max(0).sqrt().matrix();
-  for (const double z : {low, high})
-    for (const double sign : {1.0, -1.0}) around.extend(back * frame.outward({0, 0, z}) + sign * disc);
-  std::vector<std::array<Eigen::Vector3d, 3>> triangles;
-  surface.overlapping(around, [&](std::uint32_t t) {
-    auto& corners = triangles.emplace_back(surface.corners(t));
-    for (Eigen::Vector3d& p : corners) p = frame.inward(obstacle.pose * p);
-  });
-  const double size = std::max(radius, high - low);
+  const Surroundings around(frame, obstacle);
   Arcs blocked;
-  for (const Volume& v : volumes) {
-    Arcs of_volume;
-    add_blocked(v, triangles, size, of_volume);
-    blocked.insert(blocked.end(), of_volume.begin(), of_volume.end());
-  }
-  blocked = joined(std::move(blocked));
-  const Aabb& box = surface.nodes().front().box;
-  if (obstacle.closed && box.overlaps(around)) add_buried(volumes, frame, obstacle, box, blocked);
+  for (const Volume& v : volumes) blocked = blocked_by(v, around, blocked);
+  if (obstacle.closed) add_buried(volumes, frame, obstacle, obstacle.surface->nodes().front().box, blocked);
   return blocked;
 }
 

@@ -126,6 +126,7 @@ std::optional<Piece> piece_of(const std::array<Eigen::Vector3d, 3>& triangle, do
 
 Outline::Outline(const Volume& v) : volume(&v) {
   const double wide = v.form == Form::obround ? v.radius : 0;
+  half_width = v.form == Form::obround ? wide : (v.to - v.from).minCoeff() / 2;
   if (v.form == Form::obround) {
     nearest = std::max(0.0, point_to_segment(Vec2::Zero(), v.from, v.to) - wide);
     farthest = std::max(v.from.norm(), v.to.norm()) + wide;
@@ -143,6 +144,12 @@ Outline::Outline(const Volume& v) : volume(&v) {
     constexpr std::array<double, 4> kNone{};
     directions = nearest > 0 ? directions_of(corners.data(), kNone.data(), 4) : Directions{0, kAll};
   }
+}
+
+double Outline::distance_to(const Vec2& p) const {
+  if (volume->form == Form::obround)
+    return std::max(0.0, point_to_segment(p, volume->from, volume->to) - volume->radius);
+  return (volume->from - p).cwiseMax(p - volume->to).cwiseMax(0).norm();
 }
 
 bool Outline::clear(const Piece& piece, double angle, double margin) const {

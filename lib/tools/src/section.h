@@ -29,9 +29,12 @@ std::optional<Piece> piece_of(const std::array<Eigen::Vector3d, 3>& triangle, do
 struct Outline {
   const Volume* volume;
   double nearest, farthest;  // from the axis
+  double half_width;
   Directions directions;
 
   explicit Outline(const Volume& v);
+  /// Of a point from the outline; 0 inside.
+  double distance_to(const Eigen::Vector2d& p) const;
   /// True proves that the piece, turned by `angle`, is farther than `margin` from the outline.
   bool clear(const Piece& piece, double angle, double margin) const;
   /// True proves that the piece, turned by `angle`, has a point inside the outline farther than `margin` from its edge.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dismantle/testing/trials.h"
 #include "frame.h"
 #include "scene.h"
 
@@ -115,7 +116,7 @@ class Brute {
 TEST(FindAccess, AgreesWithSampledPlacements) {
   Rng rng(55);
   int reached = 0, blocked = 0, narrow = 0;
-  for (int round = 0; round < 120; ++round) {
+  for (int round = 0; round < testing_support::trials(120, 2000); ++round) {
     std::vector<Mesh> parts;
     for (auto n = 2 + rng.below(14); n > 0; --n) parts.push_back(block(rng, 14, 60, 30));
     const Tool tool = random_tool(rng);
@@ -135,7 +136,7 @@ TEST(FindAccess, AgreesWithSampledPlacements) {
     }
     ++blocked;
     ASSERT_FALSE(access.in_the_way.empty());
-    for (int k = 0; k < 60; ++k)
+    for (int k = 0; k < testing_support::trials(60, 400); ++k)
       EXPECT_FALSE(brute.free_swing(rng.uniform(0, 2 * pi), use.swing, 24)) << "round " << round;
     // Without the parts that are in the way it has room, and they are the fewest.
     std::vector<Obstacle> left;
@@ -162,7 +163,7 @@ TEST(FindAccess, AgreesWithSampledPlacements) {
 /// turn.
 TEST(FindAccess, FindsTheLastGap) {
   Rng rng(56);
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < testing_support::trials(60, 1000); ++round) {
     Tool tool;
     Use& use = tool.uses.emplace_back();
     use.swing = rng.uniform(0.05, 1);
