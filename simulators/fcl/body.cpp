@@ -9,6 +9,7 @@
 #include "dismantle/geometry/disjoint_sets.h"
 #include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/hull.h"
+#include "dismantle/geometry/mass_properties.h"
 #include "dismantle/geometry/numerics.h"
 #include "flat_faces.h"
 
@@ -150,7 +151,7 @@ std::shared_ptr<const Body> make_body(const Part& part, const std::vector<double
                                           std::move(graph),
                                           CollisionMesh(mesh.vertices, mesh.triangles),
                                           hull_corners(mesh.vertices),
-                                          sdf::mass_properties(mesh).center,
+                                          mass_properties(mesh).center,
                                           0,
                                           {}});
   for (const auto& v : mesh.vertices) body->radius = std::max(body->radius, (v - body->center).norm());

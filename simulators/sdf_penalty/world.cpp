@@ -25,7 +25,7 @@ PenaltyWorld::PenaltyWorld(const sdf::PreparedShapes& prepared, const Scene& sce
     : BodyWorld(prepared, scene, space, contact_options(parameters)), parameters_(parameters) {
   for (std::size_t i = 0; i < scene.moving.size(); ++i) {
     const sdf::Placed& placed = prepared.placed[scene.moving[i].part];
-    const sdf::MassProperties& mass = placed.shape->mass;
+    const MassProperties& mass = placed.shape->mass;
     Inertia inertia;
     const Eigen::Matrix3d r = placed.rest.q.toRotationMatrix();
     if (parameters.dynamics == Dynamics::density) {

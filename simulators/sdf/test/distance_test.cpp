@@ -253,17 +253,5 @@ TEST(SplitSolids, OverlappingShellsAreSeparateSolidsAndVoidsStayWithTheirs) {
   }
 }
 
-TEST(MassProperties, MatchClosedForms) {
-  using Eigen::Vector3d;
-  const auto b = mass_properties(test::box(Vector3d(100, 0, 0), Vector3d(102, 3, 4)));
-  EXPECT_NEAR(b.volume, 24, 1e-9);
-  EXPECT_NEAR((b.center - Vector3d(101, 1.5, 2)).norm(), 0, 1e-9);
-  EXPECT_NEAR(b.inertia(0, 0), 24.0 / 12 * (9 + 16), 1e-8);
-  EXPECT_NEAR(b.inertia(1, 1), 24.0 / 12 * (4 + 16), 1e-8);
-  EXPECT_NEAR(b.inertia(0, 1), 0, 1e-8);
-  const double pi = std::numbers::pi;
-  EXPECT_NEAR(mass_properties(test::torus(2, 0.5, 400, 200)).volume, 2 * pi * pi * 2 * 0.25, 0.01);
-}
-
 }  // namespace
 }  // namespace dismantle::sdf

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dismantle/assembly.h"
+#include "dismantle/geometry/mass_properties.h"
 #include "dismantle/run_context.h"
 #include "dismantle/sdf/contact_points.h"
 #include "dismantle/sdf/distance_grid.h"

@@ -27,12 +27,4 @@ std::vector<Solid> split_solids(const Mesh& mesh, const geometry::Poll& poll = {
 /// All of an open mesh.
 Solid walls(const Mesh& mesh, const geometry::Poll& poll = {});
 
-/// Volume, centre of mass and inertia of a closed mesh of density 1 (divergence theorem; exact).
-struct MassProperties {
-  double volume = 0;
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about `center`, mesh axes
-};
-MassProperties mass_properties(const Mesh& mesh);
-
 }  // namespace dismantle::sdf
