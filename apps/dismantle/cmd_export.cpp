@@ -9,6 +9,7 @@
 #include "dismantle/frame_options.h"
 #include "dismantle/plan_io/animation.h"
 #include "dismantle/plan_io/exports.h"
+#include "dismantle/plan_io/robot_exports.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/settings.h"
 #include "dismantle/stopped.h"
@@ -23,8 +24,13 @@ struct ExportFormat {
   bool binary;
   /// Null: the format needs the parts' surfaces.
   std::string (*of_plan)(const Plan&, const InputFrame&);
-  /// Null: the plan suffices.
+  /// Null: the plan suffices, or the format is a folder.
   std::string (*of_assembly)(const Plan&, const Assembly&, const InputFrame&);
+  /// Not null: the format is a folder of several files, and `file` names it.
+  std::vector<ExportedFile> (*of_folder)(const Plan&, const Assembly&, const InputFrame&) = nullptr;
+
+  /// Lengths are metres, whatever the input has.
+  bool in_metres() const { return binary || of_folder != nullptr; }
 };
 
 constexpr std::array kExportFormats{
@@ -47,6 +53,8 @@ constexpr std::array kExportFormats{
     ExportFormat{"bom-csv", "bom.csv", "bill of materials, a row each", false, nullptr, bom_csv},
     ExportFormat{"steps-csv", "steps.csv", "steps of the assembly, a row each", false, steps_csv, nullptr},
     ExportFormat{"markdown", "steps.md", "table of the steps", false, steps_markdown, nullptr},
+    ExportFormat{"mjcf", "mjcf/", "a model for MuJoCo with a state for each step", false, nullptr, nullptr, to_mjcf},
+    ExportFormat{"ros", "ros/", "a URDF and trajectories for ROS 2", false, nullptr, nullptr, to_ros},
 };
 
 struct ExportOptions {
@@ -54,6 +62,30 @@ struct ExportOptions {
   FrameOptions frame;
   ConsoleOptions console;
 };
+
+int write_text(const std::string& content, const std::filesystem::path& file, bool to_stdout, Console& console) {
+  console.end_progress();
+  if (to_stdout) {
+    fmt::print("{}", content);
+    return kComplete;
+  }
+  write_file(file, content);
+  console.text(fmt::format("wrote {}\n", file.string()));
+  return kComplete;
+}
+
+int write_folder(const std::vector<ExportedFile>& files, const std::filesystem::path& folder, Console& console) {
+  console.end_progress();
+  std::string names;
+  for (const ExportedFile& file : files) {
+    const std::filesystem::path path = folder / file.name;
+    open_output_folder(path.parent_path());
+    write_file(path, file.content);
+    if (file.name.find('/') == std::string::npos) names += " " + file.name;
+  }
+  console.text(fmt::format("wrote to {}:{}, and the meshes\n", folder.string(), names));
+  return kComplete;
+}
 
 int export_plan(const ExportOptions& options) {
   Console console(options.console);
@@ -64,40 +96,32 @@ int export_plan(const ExportOptions& options) {
   const InputFrame frame = frame_of(plan, options.frame);
   const bool to_stdout = options.output == "-";
   if (to_stdout && format->binary) throw Error("a .glb file is binary: name a file with -o");
+  if (to_stdout && format->of_folder != nullptr)
+    throw Error(fmt::format("{} is a folder of several files: name a folder with -o", options.format));
+  const std::filesystem::path target = options.output.empty()
+                                           ? std::filesystem::path(options.plan).replace_filename(format->file)
+                                           : std::filesystem::path(options.output);
 
-  std::string content;
-  if (format->of_plan != nullptr) {
-    content = format->of_plan(plan, frame);
-  } else {
-    const Session session = reader(console);
-    RunContext context = context_of(session, console);
-    const Assembly assembly = stoppable(context, [&] {
-      return session.assembly_of(plan, source_of(plan, options.plan, options.assembly), context);
-    });
-    if (format->binary && !frame.unit_known)
-      console.warning(fmt::format("the files do not name their unit: {} is assumed; --unit names another", frame.unit));
-    content = format->of_assembly(plan, assembly, frame);
-  }
-  console.end_progress();
-  if (to_stdout) {
-    fmt::print("{}", content);
-    return kComplete;
-  }
-  const std::filesystem::path file = options.output.empty()
-                                         ? std::filesystem::path(options.plan).replace_filename(format->file)
-                                         : std::filesystem::path(options.output);
-  write_file(file, content);
-  console.text(fmt::format("wrote {}\n", file.string()));
-  return kComplete;
+  if (format->of_plan != nullptr) return write_text(format->of_plan(plan, frame), target, to_stdout, console);
+  const Session session = reader(console);
+  RunContext context = context_of(session, console);
+  const Assembly assembly = stoppable(
+      context, [&] { return session.assembly_of(plan, source_of(plan, options.plan, options.assembly), context); });
+  if (format->in_metres() && !frame.unit_known)
+    console.warning(fmt::format("the files do not name their unit: {} is assumed; --unit names another", frame.unit));
+  if (format->of_folder == nullptr)
+    return write_text(format->of_assembly(plan, assembly, frame), target, to_stdout, console);
+  return write_folder(format->of_folder(plan, assembly, frame), target, console);
 }
 
 }  // namespace
 
 void add_export(CLI::App& app, Action& action) {
-  auto* command = app.add_subcommand("export", "Write a plan for other programs: poses, graphs, glTF, Markdown");
+  auto* command =
+      app.add_subcommand("export", "Write a plan for other programs: poses, graphs, glTF, Markdown, MuJoCo, ROS");
   auto options = std::make_shared<ExportOptions>();
   std::vector<std::string> names;
-  std::string table = "Formats, and the file that is written beside the plan:\n";
+  std::string table = "Formats, and the file or folder that is written beside the plan:\n";
   for (const ExportFormat& f : kExportFormats) {
     names.emplace_back(f.name);
     table += fmt::format("  {:13} {:14} {}\n", f.name, f.file, f.doc);
@@ -107,13 +131,15 @@ void add_export(CLI::App& app, Action& action) {
       ->required()
       ->option_text("FORMAT")
       ->check(CLI::IsMember(names));
-  command->add_option("-o,--output", options->output, "The file to write; '-' is standard output")->option_text("FILE");
+  command->add_option("-o,--output", options->output, "The file or folder to write; '-' is standard output")
+      ->option_text("FILE");
   command->add_option("--assembly", options->assembly, "The input that the plan is for, if it has moved")
       ->option_text("INPUT");
   add_frame(*command, options->frame);
   add_verbosity(*command, options->console);
   command->footer(table +
-                  "Poses, glTF and the bill of materials need the input of the plan; all else is made from the plan alone.\n"
+                  "Poses, glTF, the bill of materials and folders need the input of the plan; all else is made from "
+                  "the plan alone.\n"
                   "Examples:\n"
                   "  dismantle export out/plan.json --format poses-csv\n"
                   "  dismantle export out/plan.json --format and-or-dot -o - | dot -Tsvg > and_or.svg");

@@ -1,5 +1,6 @@
 """`dismantle export` and `dismantle book`: other programs can read what is written."""
 import csv
+import importlib.util
 import io
 import json
 import os
@@ -106,6 +107,158 @@ class Export(WithPlan):
         self.export("markdown")
         self.assert_fails(3, "name it with --assembly", "export", "out/plan.json", "--format", "poses-csv")
         self.run_program("export", "out/plan.json", "--format", "poses-csv", "--assembly", "moved", status=0)
+
+
+# The elements of MJCF and URDF that a model may have here, each with its attributes: those that must be there, and others.
+MJCF = {
+    "mujoco": ("model", ""), "compiler": ("", "angle meshdir balanceinertia boundmass boundinertia"), "option": ("", "timestep gravity"),
+    "default": ("", "class"), "custom": ("", ""), "text": ("name data", ""), "asset": ("", ""), "mesh": ("file", "name inertia"),
+    "worldbody": ("", ""), "light": ("", "pos dir directional"), "body": ("", "name pos quat"), "freejoint": ("", "name"),
+    "inertial": ("pos mass", "fullinertia"), "geom": ("", "name class type mesh rgba contype conaffinity"), "equality": ("", ""),
+    "weld": ("body1", "name body2"), "keyframe": ("", ""), "key": ("", "name qpos")}
+URDF = {
+    "robot": ("name", ""), "link": ("name", ""), "inertial": ("", ""), "origin": ("", "xyz rpy"), "mass": ("value", ""),
+    "inertia": ("ixx ixy ixz iyy iyz izz", ""), "visual": ("", ""), "collision": ("", ""), "geometry": ("", ""), "mesh": ("filename", ""),
+    "material": ("name", ""), "color": ("rgba", ""), "joint": ("name type", ""), "parent": ("link", ""), "child": ("link", "")}
+# Fields of the messages of ROS 2, as its .msg files list them; a list: of any length.
+TIME = {"sec": int, "nanosec": int}
+HEADER = {"stamp": TIME, "frame_id": str}
+VECTOR = {"x": float, "y": float, "z": float}
+QUATERNION = {**VECTOR, "w": float}
+TRANSFORM = {"translation": VECTOR, "rotation": QUATERNION}
+TRANSFORM_STAMPED = {"header": HEADER, "child_frame_id": str, "transform": TRANSFORM}
+POSE_ARRAY = {"header": HEADER, "poses": [{"position": VECTOR, "orientation": QUATERNION}]}
+TWIST = {"linear": VECTOR, "angular": VECTOR}
+TRAJECTORY = {"header": HEADER, "joint_names": [str],
+              "points": [{"transforms": [TRANSFORM], "velocities": [TWIST], "accelerations": [TWIST], "time_from_start": TIME}]}
+
+
+class Robots(WithPlan):
+    METRES = 0.0254
+
+    def export_folder(self, format_):
+        """The input has no unit: inches."""
+        self.run_program("export", "out/plan.json", "--format", format_, "--unit", "inch", "-q", status=0)
+
+    def model(self, file, schema):
+        root = ElementTree.fromstring(self.read(file))
+        for element in root.iter():
+            required, others = (set(names.split()) for names in schema[element.tag])
+            self.assertLessEqual(required, set(element.keys()), element.tag)
+            self.assertLessEqual(set(element.keys()), required | others, element.tag)
+        return root
+
+    def assert_box(self, mesh, part):
+        """The mesh has the size of the part's input file, in metres."""
+        def box(text, scale):
+            points = [[scale * float(x) for x in line.split()[1:4]] for line in text.splitlines() if line.startswith("v ")]
+            return [f(p[k] for p in points) for k in range(3) for f in (min, max)]
+        file = next(p["file"] for p in self.plan["assembly"]["parts"] if p["name"] == part)
+        for mine, theirs in zip(box(self.read(mesh), 1), box(self.read("box", file), self.METRES), strict=True):
+            self.assertAlmostEqual(mine, theirs, 9)
+
+    def assert_pose(self, xyz, wxyz, pose):
+        for mine, theirs in zip([*xyz, *wxyz], [*(self.METRES * x for x in pose[:3]), *pose[3:]], strict=True):
+            self.assertAlmostEqual(mine, theirs, 12)
+
+    def assert_fields(self, value, fields):
+        if isinstance(fields, dict):
+            self.assertEqual(list(value), list(fields))
+            for key, inner in fields.items():
+                self.assert_fields(value[key], inner)
+        elif isinstance(fields, list):
+            for item in value:
+                self.assert_fields(item, fields[0])
+        else:
+            self.assertIsInstance(value, (int, float) if fields is float else fields)
+
+    def test_mjcf_has_a_body_per_part_and_a_keyframe_per_step(self):
+        self.export_folder("mjcf")
+        root = self.model("out/mjcf/assembly.xml", MJCF)
+        self.assertEqual([child.tag for child in root],
+                         ["compiler", "option", "default", "asset", "worldbody", "equality", "keyframe"])
+        folder = root.find("compiler").get("meshdir")
+        files = {m.get("name"): os.path.join("out", "mjcf", folder, m.get("file")) for m in root.iter("mesh")}
+        names = [part["name"] for part in self.plan["assembly"]["parts"]]
+        bodies = root.findall("worldbody/body")
+        self.assertEqual([b.get("name") for b in bodies], names)
+        for body in bodies:
+            self.assertEqual([child.tag for child in body], ["freejoint", "inertial", "geom"])
+            self.assert_box(files[body.find("geom").get("mesh")], body.get("name"))
+        now = {name: [0, 0, 0, 1, 0, 0, 0] for name in names}
+        keys = root.findall("keyframe/key")
+        self.assertEqual([k.get("name") for k in keys], ["assembled"] + [f"step_{s['step']}" for s in self.plan["disassembly"]])
+        for key, step in zip(keys, [{"moves": []}] + self.plan["disassembly"], strict=True):
+            now.update({move["part"]: move["poses"][-1] for move in step["moves"]})
+            numbers = [float(x) for x in key.get("qpos").split()]
+            for i, name in enumerate(names):
+                self.assert_pose(numbers[7 * i:7 * i + 3], numbers[7 * i + 3:7 * i + 7], now[name])
+        welds = root.findall("equality/weld")
+        self.assertEqual(len(welds), len(names), "all are joined to one, and one to the world")
+        for weld in welds:
+            self.assertIn(weld.get("body1"), names)
+            self.assertIn(weld.get("body2", names[0]), names)
+
+    @unittest.skipUnless(importlib.util.find_spec("mujoco"), "MuJoCo is not installed")
+    def test_mujoco_loads_the_model(self):
+        import mujoco
+        self.export_folder("mjcf")
+        model = mujoco.MjModel.from_xml_path(self.path("out", "mjcf", "assembly.xml"))
+        self.assertEqual(model.nq, 7 * len(self.plan["assembly"]["parts"]))
+        self.assertEqual(model.nkey, 1 + len(self.plan["disassembly"]))
+
+    def test_ros_has_the_fields_of_its_messages_and_the_poses_of_the_plan(self):
+        self.export_folder("ros")
+        motions = json.loads(self.read("out", "ros", "motions.json"))
+        part_of = {link["link"]: link["part"] for link in motions["links"]}
+        joint_of = {link["link"]: link["joint"] for link in motions["links"]}
+        self.assertEqual([link["part"] for link in motions["links"]], [p["name"] for p in self.plan["assembly"]["parts"]])
+        self.assert_fields(motions["frames"], [TRANSFORM_STAMPED])
+        for kind, key in (("disassembly", "disassembly"), ("assembly", "assembly_steps")):
+            for step, planned in zip(motions[kind], self.plan[key], strict=True):
+                self.assertEqual(step["step"], planned["step"])
+                self.assert_fields(step["trajectory"], TRAJECTORY)
+                self.assert_fields(step["frames"], [TRANSFORM_STAMPED])
+                self.assertEqual(step["trajectory"]["joint_names"], [joint_of[p["link"]] for p in step["paths"]])
+                for m, (path, move) in enumerate(zip(step["paths"], planned["moves"], strict=True)):
+                    self.assert_fields(path["pose_array"], POSE_ARRAY)
+                    self.assertEqual(part_of[path["link"]], move["part"])
+                    poses = path["pose_array"]["poses"]
+                    for pose, point, expected in zip(poses, step["trajectory"]["points"], move["poses"], strict=True):
+                        transform = point["transforms"][m]
+                        self.assertEqual(transform, {"translation": pose["position"], "rotation": pose["orientation"]})
+                        self.assert_pose([pose["position"][k] for k in "xyz"], [pose["orientation"][k] for k in "wxyz"], expected)
+                    self.assertEqual(step["frames"][m]["child_frame_id"], path["link"])
+                    self.assertEqual(step["frames"][m]["transform"], step["trajectory"]["points"][-1]["transforms"][m])
+
+    def test_urdf_has_a_floating_link_per_part(self):
+        self.export_folder("ros")
+        root = self.model("out/ros/assembly.urdf", URDF)
+        motions = json.loads(self.read("out", "ros", "motions.json"))
+        self.assertEqual([link.get("name") for link in root.findall("link")],
+                         [motions["root"]] + [link["link"] for link in motions["links"]])
+        for link, known in zip(root.findall("link")[1:], motions["links"], strict=True):
+            self.assertGreater(float(link.find("inertial/mass").get("value")), 0)
+            for mesh in link.iter("mesh"):
+                self.assert_box(os.path.join("out", "ros", mesh.get("filename")), known["part"])
+        for joint, known in zip(root.findall("joint"), motions["links"], strict=True):
+            self.assertEqual((joint.get("name"), joint.get("type")), (known["joint"], "floating"))
+            self.assertEqual((joint.find("parent").get("link"), joint.find("child").get("link")), (motions["root"], known["link"]))
+
+    @unittest.skipUnless(shutil.which("check_urdf"), "liburdfdom-tools is not installed")
+    def test_urdfdom_reads_the_model(self):
+        self.export_folder("ros")
+        done = subprocess.run(["check_urdf", self.path("out", "ros", "assembly.urdf")], text=True, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn(f"root Link: assembly has {len(self.plan['assembly']['parts'])} child(ren)", done.stdout)
+
+    def test_wrong_use_is_told(self):
+        self.assert_fails(2, "name a folder with -o", "export", "out/plan.json", "--format", "mjcf", "-o", "-")
+        done = self.run_program("export", "out/plan.json", "--format", "ros", "-o", "robot", status=0)
+        self.assertIn("mm is assumed", done.stderr)
+        self.assertTrue(os.path.exists(self.path("robot", "assembly.urdf")))
+        self.assert_fails(2, "cannot be used as output folder", "export", "out/plan.json", "--format", "ros", "-o", "out/plan.json")
 
 
 @unittest.skipUnless(HAS_BOOK, "built without pangocairo")
