@@ -7,12 +7,15 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/crash_handler.h"
+#include "dismantle/each_product.h"
 #include "dismantle/errors.h"
+#include "dismantle/finished_run.h"
 #include "dismantle/isolation.h"
 #include "dismantle/plan_files.h"
 #include "dismantle/plan_io/summary.h"
@@ -34,6 +37,8 @@ namespace fs = std::filesystem;
 struct PlanOptions {
   std::string input, folder, part, resume, from;
   std::optional<std::size_t> after;
+  bool each = false, keep_finished = false;
+  unsigned jobs = 1;
   bool isolate = false;
   std::int64_t memory = 0;  // MiB, for an isolated run
   ConfigFlags config;
@@ -94,6 +99,13 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
       throw Error(fmt::format("{} would be written over: name another folder with -o", file));
   }
   if (!options.folder.empty()) open_output_folder(folder);
+  if (options.keep_finished) {
+    const auto run = stoppable(context, [&] { return finished_run(folder, options.input, session, context); });
+    if (run) {
+      console.result(run->result);
+      return run->status;
+    }
+  }
   remove_old_results(folder, options.input);
   GiveUp give_up(config, context, folder, console);
   std::optional<Watchdog> watchdog(std::in_place, context, config.run.grace, [&give_up] { give_up(); });
@@ -149,8 +161,46 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
   console.text(text + "\n");
   nlohmann::ordered_json json = result_json(result, status, folder / "plan.json");
   if (kept) json["revised"] = revised_json(*kept);
+  if (options.keep_finished && (status == kComplete || status == kPartial) && !context.cancel.cancelled())
+    write_finished(folder, status, json);
   console.result(std::move(json));
   return status;
+}
+
+/// What was given on the command line for every product: all but the input, the output and how much to print.
+std::vector<std::string> options_for_each(const CLI::App& command) {
+  std::vector<std::string> out;
+  bool threads = false;
+  unsigned jobs = 1;
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_single_name();
+    if (option->count() == 0 || option->get_positional()) continue;
+    if (name == "jobs") jobs = option->as<unsigned>();
+    if (name == "each" || name == "jobs" || name == "output" || name == "format" || name == "quiet" ||
+        name == "verbose")
+      continue;
+    threads = threads || name == "threads";
+    if (option->get_expected_max() == 0) {  // a flag
+      out.push_back("--" + name);
+      continue;
+    }
+    for (const std::string& value : option->results()) out.push_back(fmt::format("--{}={}", name, value));
+  }
+  // Jobs at the same time share the cores.
+  if (!threads && jobs > 1)
+    out.push_back(fmt::format("--threads={}", std::max(1u, std::thread::hardware_concurrency() / jobs)));
+  return out;
+}
+
+int plan_products(const PlanOptions& options, const CLI::App& command) {
+  Console console(options.console);
+  if (options.folder.empty()) throw Error("--each needs a folder for the results: name it with -o");
+  const Session session(options.config.source());
+  warn_of_problems(session, console);
+  session.check();
+  return plan_each(
+      {.folder = options.input, .output = options.folder, .jobs = options.jobs, .options = options_for_each(command)},
+      session, console);
 }
 
 int plan(const PlanOptions& options) {
@@ -214,20 +264,34 @@ void add_plan(CLI::App& app, Action& action) {
       ->option_text("MIB")
       ->check(CLI::PositiveNumber.description(""))
       ->needs(isolate);
+  auto* each = command->add_flag("--each", options->each,
+                                 "INPUT is a folder of products: plan each file and sub-folder into DIR/NAME");
+  each->option_text(" ")->excludes("--part")->excludes("--resume")->excludes("--from");
+  command->add_option("--jobs", options->jobs, "With --each: number of products that are planned at the same time")
+      ->check(CLI::Range(1u, 4096u))
+      ->option_text("N")
+      ->needs(each);
+  command->add_flag("--keep-finished", options->keep_finished)->group("");  // for --each
   add_format(*command, options->console);
   add_verbosity(*command, options->console);
   command->footer(
       "Writes index.html (to look at in a browser), plan.json, plan.glb (the animation), precedence.dot and\n"
       "resolved.yaml; those of an earlier run in that folder are removed first. Ctrl-C once stops soon and saves,\n"
       "twice stops now.\n"
+      "With --each, DIR/summary.csv has a row for each product; a finished product whose files and settings are the\n"
+      "same is kept, so that the same command goes on after Ctrl-C.\n"
       "Exit status: 0 what was asked for is done, every step verified; 1 not so, or some parts could not be used;\n"
       "2 usage or configuration; 3 unusable input; 4 a plugin failed or did not stop; 130 interrupted.\n"
       "Examples:\n"
       "  dismantle sample machine -o gearbox\n"
       "  dismantle plan gearbox/\n"
       "  dismantle plan gearbox/ --part washer_1_4 --set path_planner.of.contact_search.motion=translation -o washer\n"
-      "  dismantle plan gearbox/ --format json -q | tail -n 1");
-  command->callback([&action, options] { action = [options] { return plan(*options); }; });
+      "  dismantle plan gearbox/ --format json -q | tail -n 1\n"
+      "  dismantle sample peg_in_hole -o products/peg\n"
+      "  dismantle plan --each products/ -o plans --jobs 2");
+  command->callback([&action, options, command] {
+    action = [options, command] { return options->each ? plan_products(*options, *command) : plan(*options); };
+  });
 }
 
 }  // namespace dismantle::app

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "dismantle/errors.h"
+#include "dismantle/finished_run.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/write_file.h"
 
@@ -14,7 +15,7 @@ namespace dismantle::app {
 namespace fs = std::filesystem;
 
 void remove_old_results(const fs::path& folder, const fs::path& input) {
-  for (const char* name : {"index.html", "plan.json", "plan.glb", "precedence.dot", "resolved.yaml"}) {
+  for (const char* name : {"index.html", "plan.json", "plan.glb", "precedence.dot", "resolved.yaml", kFinishedRun}) {
     const fs::path file = folder / name;
     std::error_code error;
     if (!fs::is_regular_file(file, error) || fs::equivalent(file, input, error)) continue;

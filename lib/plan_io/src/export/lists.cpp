@@ -8,11 +8,11 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/geometry/congruent_parts.h"
+#include "dismantle/plan_io/csv_text.h"
 #include "dismantle/plan_io/exports.h"
 #include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/text_columns.h"
 #include "dismantle/plan_io/verdicts.h"
-#include "export/csv_text.h"
 
 namespace dismantle {
 namespace {

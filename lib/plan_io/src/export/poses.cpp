@@ -5,9 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "dismantle/plan_io/csv_text.h"
 #include "dismantle/plan_io/exports.h"
 #include "dismantle/plan_io/verdicts.h"
-#include "export/csv_text.h"
 #include "json/json_text.h"
 #include "json/verdicts_json.h"
 #include "steps/timeline.h"

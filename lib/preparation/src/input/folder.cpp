@@ -80,9 +80,11 @@ FolderContents contents_of(const fs::path& folder, const std::function<bool(cons
     const std::string extension = lower_extension(path);
     if (fs::is_directory(status)) {
       out.sub_folders = true;
-      if (!is_own_output(path) && holds_input(path, can_read))
-        out.rest.push_back(
-            left_aside(name + "/", "sub-folders are not read: move its files up, or plan it by its own name"));
+      if (is_own_output(path) || !holds_input(path, can_read)) continue;
+      out.folders.push_back(path);
+      out.rest.push_back(left_aside(name + "/",
+                                    "sub-folders are not read: move its files up, or plan it by its own name; "
+                                    "`dismantle plan --each` plans every file and sub-folder by itself"));
     } else if (can_read(extension)) {
       // Broken links are kept, so that reading them reports the problem. Pipes and devices would hang.
       if (fs::is_other(status))

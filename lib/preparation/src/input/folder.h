@@ -16,6 +16,7 @@ std::string lower_extension(const std::filesystem::path& file);
 struct FolderContents {
   std::vector<std::filesystem::path> meshes;  ///< in natural order
   std::vector<RawPart> rest;                  ///< what may be input and is not read, each with its problem
+  std::vector<std::filesystem::path> folders;  ///< those of `rest`, in natural order
   bool sub_folders = false;
 };
 

@@ -11,27 +11,12 @@
 #include "dismantle/errors.h"
 #include "dismantle/preparation/sha256.h"
 #include "input/folder.h"
+#include "input/readers.h"
 
 namespace dismantle {
 namespace {
 
 namespace fs = std::filesystem;
-
-using Readers = std::map<std::string, std::shared_ptr<Importer>>;
-
-Readers readers_of(const std::vector<std::shared_ptr<Importer>>& importers) {
-  Readers readers;
-  for (const auto& importer : importers)
-    for (const auto& extension : importer->extensions()) readers.emplace(extension, importer);  // the first one wins
-  return readers;
-}
-
-std::string readable(const Readers& readers) {
-  if (readers.empty()) return "no importer is loaded";
-  std::string list;
-  for (const auto& [extension, importer] : readers) list += (list.empty() ? "." : ", .") + extension;
-  return "can be read: " + list;
-}
 
 std::string too_many(std::uint64_t count, const std::string& where, std::int64_t limit) {
   return fmt::format(
@@ -102,8 +87,11 @@ class Reader {
         folder, [&](const std::string& extension) { return readers.contains(extension); }, readable(readers));
     const auto& files = contents.meshes;
     if (files.empty())
-      throw InputError(folder.string(), fmt::format("no mesh file in this folder ({}){}", readable(readers),
-                                                    contents.sub_folders ? "; sub-folders are not read" : ""));
+      throw InputError(folder.string(),
+                       fmt::format("no mesh file in this folder ({}){}", readable(readers),
+                                   contents.sub_folders ? "; sub-folders are not read, `dismantle plan --each` plans "
+                                                          "each of them by itself"
+                                                        : ""));
     std::map<std::string, int> stems;
     for (const auto& file : files) ++stems[valid_utf8(file.stem().string())];
     std::size_t done = 0;
@@ -122,6 +110,11 @@ class Reader {
       std::ranges::move(left_, std::back_inserter(out_.parts));
       left_.clear();
     }
+    if (several_ > 1 && 2 * several_ >= files.size())
+      out_.warnings.push_back(fmt::format(
+          "{} of the {} files hold several bodies each, and the folder is taken as one assembly with a part "
+          "for each file; if each file is an assembly of its own: dismantle plan --each {} -o DIR",
+          several_, files.size(), valid_utf8(folder.string())));
     for (RawPart& part : contents.rest) out_.parts.push_back(std::move(part));
     context_.progress("read", done, files.size());
   }
@@ -175,6 +168,7 @@ class Reader {
 
   /// All bodies of a file as one part; those that cannot be used go to `left_`, unless there are no others.
   RawPart joined(std::vector<RawPart> parts, const fs::path& file) {
+    if (std::ranges::count_if(parts, [](const RawPart& part) { return part.problem.empty(); }) > 1) ++several_;
     RawPart whole;
     whole.file = valid_utf8(file.filename().string());
     bool first = true;
@@ -216,6 +210,7 @@ class Reader {
   std::uint64_t total_ = 0;
   std::mutex mutex_;  // importers may warn from several threads
   std::vector<RawPart> left_;
+  std::size_t several_ = 0;  // files of a folder with several bodies
   std::vector<ReferenceStep> order_;
 };
 

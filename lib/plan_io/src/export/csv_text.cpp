@@ -1,14 +1,10 @@
-/// Fields of CSV files (RFC 4180).
-#pragma once
-
-#include <string>
+#include "dismantle/plan_io/csv_text.h"
 
 #include "export/dot_text.h"
 
 namespace dismantle {
 
-/// UTF-8; quoted where RFC 4180 requires it.
-inline std::string csv_field(const std::string& raw) {
+std::string csv_field(const std::string& raw) {
   const std::string text = utf8_text(raw);
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string out = "\"";
