@@ -200,7 +200,7 @@ int edit_plan(const EditOptions& options) {
   const auto files = write_all(*result, *loaded.assembly, folder, console);
   console.end_progress();
   const int status = status_of(*result, context);
-  std::string text = summary_text(result->plan) + fmt::format("wrote to {}:", folder.string());
+  std::string text = summary_text(result->plan, options.console.verbose) + fmt::format("wrote to {}:", folder.string());
   for (const auto& file : files) text += " " + file;
   console.text(text + "\n");
   console.result(result_json(*result, status, folder / "plan.json"));

@@ -147,7 +147,7 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
   console.end_progress();
 
   const int status = status_of(result, context);
-  std::string text = summary_text(result.plan) + effort_text(result, options.console.verbose);
+  std::string text = summary_text(result.plan, options.console.verbose) + effort_text(result, options.console.verbose);
   if (kept) text += kept_text(*kept, options.from);
   if (const auto names = unusable_parts(result.plan); !names.empty())
     text +=

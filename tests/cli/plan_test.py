@@ -47,8 +47,11 @@ class Plan(CliTest):
     def test_text_output_names_parts_in_order_and_quiet_is_silent(self):
         self.make("peg_in_hole")
         done = self.run_program("plan", "peg_in_hole", *QUICK, "-o", "out", status=0)
-        for word in ("2 parts, 1 step, complete", "penetration <=", "stays:", "plan.glb"):
+        for word in ("2 parts, 1 step, complete", "every step is verified", "stays:", "plan.glb"):
             self.assertIn(word, done.stdout)
+        self.assertNotIn("penetration <=", done.stdout)
+        verbose = self.run_program("plan", "peg_in_hole", *QUICK, "-o", "out", "-v", status=0)
+        self.assertRegex(verbose.stdout, r"(?m)^ +1  \w+ +[\d.]+ s  penetration <= ")
         done = self.run_program("plan", "peg_in_hole", *QUICK, "-o", "out", "-q", status=0)
         self.assertEqual((done.stdout, done.stderr), ("", ""))
 

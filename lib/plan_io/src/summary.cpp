@@ -102,7 +102,7 @@ std::string result_text(const Plan& plan) {
                      out.empty() ? "" : fmt::format(", {} is not out", out));
 }
 
-std::string summary_text(const Plan& plan) {
+std::string summary_text(const Plan& plan, bool details) {
   const auto& a = plan.assembly;
   double worst = 0;
   for (const auto& step : plan.disassembly) worst = std::max(worst, step.max_penetration);
@@ -117,15 +117,15 @@ std::string summary_text(const Plan& plan) {
                                   [](const PlanStep& step) { return step.separates.empty(); });
   const InputFrame frame = puzzle ? input_frame(a) : InputFrame{};
   for (const auto& step : plan.disassembly) {
+    std::string line = fmt::format("{:>5}  {}", step.step, text::padded(text::names_of(plan, step), width));
+    if (details) line += fmt::format("  {:8.2f} s", step.seconds);
     if (step.forced) {
-      out += fmt::format("{:>5}  {}  {:8.2f} s  {}: {}\n", step.step, text::padded(text::names_of(plan, step), width),
-                         step.seconds, step.forced->accepted.empty() ? "FORCED" : "accepted",
+      out += fmt::format("{}  {}: {}\n", line, step.forced->accepted.empty() ? "FORCED" : "accepted",
                          forced_text(plan, *step.forced));
       continue;
     }
-    out +=
-        fmt::format("{:>5}  {}  {:8.2f} s  penetration <= {}\n", step.step, text::padded(text::names_of(plan, step), width),
-                    step.seconds, length_text(plan, step.max_penetration / scale));
+    if (details) line += fmt::format("  penetration <= {}", length_text(plan, step.max_penetration / scale));
+    out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     if (puzzle) out += moves_text(plan, frame, step);
     out += overlaps_text(plan, step);
   }
@@ -133,8 +133,10 @@ std::string summary_text(const Plan& plan) {
     out += fmt::format("{} forced: no verified path was found, the parts are taken out where they cut in least\n",
                        text::counted(forced - accepted, "step"));
   if (plan.disassembly.size() > forced)
-    out += fmt::format("every {}step is verified: penetration <= {} of {} allowed\n", forced > 0 ? "other " : "",
-                       length_text(plan, worst / scale), length_text(plan, plan.verified_max_penetration / scale));
+    out += fmt::format("every {}step is verified{}\n", forced > 0 ? "other " : "",
+                       details ? fmt::format(": penetration <= {} of {} allowed", length_text(plan, worst / scale),
+                                             length_text(plan, plan.verified_max_penetration / scale))
+                               : "");
   if (!plan.objective.empty()) out += objective_text(plan) + "\n";
   if (plan.assembly_status == AssemblyStatus::complete)
     out += fmt::format("assembly: {} from the layout, verified the same way\n",

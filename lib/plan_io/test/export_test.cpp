@@ -91,15 +91,46 @@ TEST(Exports, MarkdownHasARowPerStepAndNoMarkupOfNames) {
   const auto [plan, assembly] = random_disassembly(random, 5);
   std::istringstream lines(steps_markdown(plan, input_frame(plan.assembly)));
   std::size_t rows = 0;
-  for (std::string line; std::getline(lines, line);) {
+  for (std::string line; std::getline(lines, line) && !line.starts_with("<details>");) {
     if (!line.starts_with("| ") || line.starts_with("| step")) continue;
     ++rows;
     std::size_t bars = 0;
     for (std::size_t i = 0; i < line.size(); ++i) bars += line[i] == '|' && (i == 0 || line[i - 1] != '\\');
-    EXPECT_EQ(bars, 7u) << line;
+    EXPECT_EQ(bars, 6u) << line;
     EXPECT_NE(line.find("2 units up"), std::string::npos) << line;
   }
   EXPECT_EQ(rows, plan.disassembly.size());
+}
+
+TEST(Exports, HowGoodStepsWereFoundIsADetail) {
+  std::mt19937 random(5);
+  auto [plan, assembly] = random_disassembly(random, 5);
+  for (PlanStep& step : plan.disassembly) {
+    step.planner = "guided";
+    step.seconds = 17.25;
+    step.max_penetration = 0.0013;
+  }
+  const auto count = [](const std::string& text, const std::string& word) {
+    std::size_t n = 0;
+    for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; ++at) ++n;
+    return n;
+  };
+  const std::size_t steps = plan.disassembly.size();
+  const std::string plain = summary_text(plan), details = summary_text(plan, true);
+  for (const char* word : {"17.25", "penetration"}) EXPECT_EQ(count(plain, word), 0u) << plain;
+  EXPECT_NE(plain.find("every step is verified\n"), std::string::npos) << plain;
+  EXPECT_EQ(count(details, "17.25 s  penetration <= "), steps) << details;
+  EXPECT_NE(details.find("every step is verified: penetration <= "), std::string::npos) << details;
+
+  const std::string markdown = steps_markdown(plan, {});
+  const std::size_t fold = markdown.find("\n<details>");
+  ASSERT_NE(fold, std::string::npos);
+  for (const char* word : {"cuts in", "guided", "17.25"}) EXPECT_EQ(count(markdown.substr(0, fold), word), 0u) << word;
+  EXPECT_EQ(count(markdown.substr(fold), "| guided | 0 | 17.25 | 0.0013 |\n"), steps) << markdown;
+  plan.disassembly[1].forced.emplace().depth = 0.5;
+  const std::string forced = steps_markdown(plan, {});
+  EXPECT_EQ(count(forced.substr(0, forced.find("\n<details>")), "| **forced: 0.5 units** |"), 1u) << forced;
+  EXPECT_EQ(count(summary_text(plan), "FORCED"), 1u);
 }
 
 TEST(Exports, MarkdownSaysWhyEachForcedStepIsForced) {

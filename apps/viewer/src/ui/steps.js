@@ -1,24 +1,34 @@
-// The list of steps: moving parts, search time, penetration. A click seeks to the step.
+// The list of steps: moving parts, what is to be known of the one that is shown. A click seeks to the step.
 import {verdictRows, verdictsOf} from '../plan/checks.js';
 import {forcedWords, isBad, lengthWords, number, seconds, share} from '../plan/words.js';
 import {element, swatch} from './dom.js';
+
+let detailsOpen = false;
+
+/** How a step was found and verified: true of every good one, so it is closed until somebody asks. */
+function details({plan}, step) {
+  const rows = [];
+  const row = (name, value) => rows.push(element('dt', {}, name), element('dd', {}, value));
+  if (step.max_penetration !== undefined && !step.forced)
+    row('cuts in', `at most ${number(step.max_penetration)} of ${number(plan.verified_max_penetration)} units allowed (${share(step.max_penetration, plan)} of the size)`);
+  if (step.clearance !== undefined) row('clearance', `${number(step.clearance)} units`);
+  if (step.planner) row('found by', `${step.planner}${step.depth ? `, ${step.depth} action${step.depth === 1 ? '' : 's'}` : ''}, in ${seconds(step.seconds ?? 0)}`);
+  if (rows.length === 0) return null;
+  return element('details', {open: detailsOpen, ontoggle: e => { detailsOpen = e.target.open; }}, element('summary', {}, 'Details'), element('dl.facts', {}, rows));
+}
 
 function facts(app, {step}) {
   const {plan} = app.model, rows = [];
   const row = (name, value) => rows.push(element('dt', {}, name), element('dd', {}, value));
   if (step.moves.length > 1) row('moves', step.moves.map(m => m.part).join(', '));
   if (step.separates?.some(g => g.length > 1)) row('group', step.separates.filter(g => g.length > 1).map(g => g.join(', ')).join(' | '));
-  if (step.max_penetration !== undefined && !step.forced)
-    row('cuts in', `at most ${number(step.max_penetration)} of ${number(plan.verified_max_penetration)} units allowed (${share(step.max_penetration, plan)} of the size)`);
-  if (step.clearance !== undefined) row('clearance', `${number(step.clearance)} units`);
-  if (step.planner) row('found by', `${step.planner}${step.depth ? `, ${step.depth} action${step.depth === 1 ? '' : 's'}` : ''}, in ${seconds(step.seconds ?? 0)}`);
   if (step.contacts?.length > 0) row('touches', step.contacts.join(', '));
   if (step.after?.length > 0) row('after', `step${step.after.length === 1 ? '' : 's'} ${step.after.join(', ')}`);
   for (const o of step.overlaps ?? [])
     row('overlap', `${o.pair.join(' and ')}: ${lengthWords(o.assembled, plan)} when assembled, up to ${number(o.depth)} along the way${o.at ? `, at ${o.at.map(number).join(', ')}` : ''}${o.region ? '; only where they overlap when assembled' : ''}`);
   if (step.forced) row('forced', forcedWords(step.forced, plan));
   for (const [name, text] of verdictRows(verdictsOf(plan, step, app.mode))) row(name, text);
-  return element('dl.facts', {}, rows);
+  return element('div.about', {}, rows.length === 0 ? null : element('dl.facts', {}, rows), details(app.model, step));
 }
 
 export function makeSteps(app) {
@@ -26,20 +36,14 @@ export function makeSteps(app) {
   let items = [], open = -1;
 
   function make() {
-    const {plan} = app.model, allowed = plan.verified_max_penetration;
     items = app.line.steps.map((entry, index) => {
       const {step, parts} = entry;
       const colours = element('span.swatches', {}, parts.slice(0, 3).map(i => swatch(app.model.colour(i, app.colours))));
-      const depth = step.max_penetration;
-      const gauge = depth === undefined ? null
-        : element('span.gauge', {title: `Cuts in by at most ${number(depth)} of ${number(allowed)} units allowed`},
-          element('span', {style: {'--share': Math.min(1, depth / allowed)}}));
       const names = element('span.name', {}, step.moves.map(m => m.part).join(', '));
       const button = element('button.step', {type: 'button', title: 'Go to this step',
         onclick: () => { app.goToStep(index); if (parts.length === 1) app.select(parts[0]); }},
         element('span.count', {}, String(step.step)), colours, names,
-        step.forced ? element(`span.pill${isBad(step) ? '.bad' : ''}`, {}, isBad(step) ? 'forced' : step.forced.accepted) : gauge,
-        element('span.seconds', {title: 'Time that finding the path took'}, step.seconds === undefined ? '' : seconds(step.seconds)));
+        step.forced ? element(`span.pill${isBad(step) ? '.bad' : ''}`, {}, isBad(step) ? 'forced' : step.forced.accepted) : null);
       return element('li', {}, button);
     });
     list.replaceChildren(...items);
@@ -50,7 +54,7 @@ export function makeSteps(app) {
   function mark() {
     if (open >= 0 && items[open]) {
       items[open].classList.remove('open');
-      items[open].querySelector('dl')?.remove();
+      items[open].querySelector('.about')?.remove();
     }
     open = app.step;
     const item = items[open];

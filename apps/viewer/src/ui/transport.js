@@ -1,5 +1,5 @@
 // Play, pause and scrub: the bar below the scene, and a caption for the current step.
-import {clock, counted, isBad, listed, share, shareOfSize} from '../plan/words.js';
+import {clock, counted, isBad, listed, shareOfSize} from '../plan/words.js';
 import {element, icon, iconButton} from './dom.js';
 
 const SPEEDS = [0.5, 1, 2, 4, 8];
@@ -85,9 +85,8 @@ export function makeTransport(app) {
     number.textContent = at < 0 ? `${counted(steps.length, 'step')}` : `Step ${at + 1} of ${steps.length}`;
     caption.textContent = over ? endOf(app) : captionOf(app, at);
     caption.title = at < 0 ? '' : steps[at].step.moves.map(m => m.part).join(', ');
-    const depth = at < 0 ? undefined : steps[at].step.max_penetration;
-    detail.textContent = depth === undefined ? '' : steps[at].step.forced ? `${steps[at].step.forced.accepted || 'forced'}: cuts in by ${shareOfSize(steps[at].step.forced.depth, plan)} of the size`
-      : `cuts in by at most ${share(depth, plan)} of the size`;
+    const forced = at < 0 ? undefined : steps[at].step.forced;
+    detail.textContent = forced ? `${forced.accepted || 'forced'}: cuts in by ${shareOfSize(forced.depth, plan)} of the size` : '';
     detail.classList.toggle('bad', at >= 0 && isBad(steps[at].step));
   }
 

@@ -100,7 +100,20 @@ onPage('the lists show each step and part by name', () => shelf.file, async page
   assert.match(await page.locator('.summary').textContent(), /Complete/);
   await page.locator('.steps .step').nth(1).click();
   assert.equal((await page.evaluate('window.dismantle.state()')).step, 1);
-  assert.match(await page.locator('.steps li.open').textContent(), /cuts in/);
+});
+
+onPage('how a step was found is a detail, and not a headline of every good step', () => shelf.file, async page => {
+  const seen = () => page.locator('body').innerText();
+  for (const key of ['Home', 'ArrowRight', 'ArrowRight']) {
+    await page.keyboard.press(key);
+    assert.doesNotMatch(await seen(), /cuts in|found by/);
+  }
+  await page.locator('.steps .step').nth(1).click();
+  assert.doesNotMatch(await seen(), /cuts in|found by/);
+  await page.locator('.steps li.open summary').click();
+  assert.match(await page.locator('.steps li.open').innerText(), /cuts in\s+at most [\s\S]*found by/);
+  await page.locator('.steps .step').nth(0).click();
+  assert.match(await page.locator('.steps li.open').innerText(), /found by/, 'they stay open for the next step');
 });
 
 onPage('put together: other steps, and the layout first', () => shelf.file, async page => {

@@ -50,6 +50,23 @@ std::string forced_reasons(const Plan& plan) {
   return out.empty() ? out : "\nWhy steps are forced:\n\n" + out;
 }
 
+/// How every step was found and verified; closed until the reader asks.
+std::string details(const Plan& plan) {
+  const PlanAssembly& a = plan.assembly;
+  std::string out =
+      "\n<details><summary>How the steps were found</summary>\n\n"
+      "| step | found by | actions | seconds | cuts in at most |\n|---:|---|---:|---:|---:|\n";
+  for (const PlanStep& step : plan.disassembly)
+    out += fmt::format("| {} | {} | {} | {:.2f} | {:.2g} |\n", step.step,
+                       step.planner.empty() ? "-" : markdown_text(step.planner), step.depth, step.seconds,
+                       step.forced ? step.forced->depth * a.scale : step.max_penetration);
+  const double size = a.box.empty() ? 1 : std::max(a.box.size().maxCoeff(), 1e-300);
+  return out + fmt::format(
+                   "\nDepths are in assembly units, of which the largest edge has {:.3g}; {:.2g} are allowed.\n\n"
+                   "</details>\n",
+                   size * a.scale, plan.verified_max_penetration);
+}
+
 }  // namespace
 
 std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
@@ -65,9 +82,10 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
   const bool judged = !plan.objective.empty();
   if (judged) out += markdown_text(objective_text(plan)) + ".\n\n";
   if (!plan.disassembly.empty()) {
-    out += fmt::format(
-        "| step | parts | motion | waits for | touches | cuts in at most |{}\n|---:|---|---|---|---|---:|{}\n",
-        judged ? " as an assembly operation |" : "", judged ? "---|" : "");
+    const bool forced = plan.forced_steps() > 0;
+    out += fmt::format("| step | parts | motion | waits for | touches |{}{}\n|---:|---|---|---|---|{}{}\n",
+                       forced ? " cuts in |" : "", judged ? " as an assembly operation |" : "", forced ? "---:|" : "",
+                       judged ? "---|" : "");
     for (const PlanStep& step : plan.disassembly) {
       std::string motion = "-";
       if (!step.moves.empty()) {
@@ -76,20 +94,19 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
         motion = motion_words(in_unit(summary, unit.factor), unit.name, frame.y_up, frame.lies(step.up));
       }
       const std::string what = step.separates.empty() ? " (shifted, stays)" : "";
-      out += fmt::format("| {} | {}{} | {} | {} | {} | {} |{}\n", step.step, markdown_text(text::names_of(plan, step)), what,
-                         markdown_text(motion), step.layer > 0 ? steps_list(step.after) : "not recorded",
+      std::string cuts;
+      if (step.forced)
+        cuts = fmt::format("**{}: {} {}**", step.forced->accepted.empty() ? "forced" : "accepted",
+                           figure_text(unit.factor * step.forced->depth), unit.name);
+      out += fmt::format("| {} | {}{} | {} | {} | {} |{}{}\n", step.step, markdown_text(text::names_of(plan, step)),
+                         what, markdown_text(motion), step.layer > 0 ? steps_list(step.after) : "not recorded",
                          step.contacts.empty() ? "-" : markdown_text(text::joined(step.contacts)),
-                         step.forced ? fmt::format("**{}: {:.2g}**", step.forced->accepted.empty() ? "forced" : "accepted",
-                                                   step.forced->depth * a.scale)
-                                     : fmt::format("{:.2g}", step.max_penetration),
+                         forced ? fmt::format(" {} |", cuts.empty() ? "-" : cuts) : "",
                          judged ? " " + judged_cell(step.checks) + " |" : "");
     }
-    out += fmt::format(
-        "\nMotions are those of the first part named, at the assembly's middle, or on the axis about which it turns. Depths are in assembly units, of which "
-        "the "
-        "largest edge has {:.3g}; {:.2g} are allowed.\n",
-        size * a.scale, plan.verified_max_penetration);
-    out += forced_reasons(plan);
+    out +=
+        "\nMotions are those of the first part named, at the assembly's middle, or on the axis about which it turns.\n";
+    out += forced_reasons(plan) + details(plan);
   }
   if (!plan.remaining.empty()) out += fmt::format("\nStays: {}.\n", markdown_text(text::joined(plan.remaining)));
   if (!plan.unsolved.empty()) {

@@ -15,7 +15,8 @@ DISMANTLE_API std::string result_word(const Plan& plan);
 DISMANTLE_API std::string result_text(const Plan& plan);
 /// Forced steps that the user accepts (constraints.accept).
 DISMANTLE_API std::size_t accepted_steps(const Plan& plan);
-/// For a terminal, with a line break at the end: what came out in which order, what stays, what was left out, what could not be solved.
-DISMANTLE_API std::string summary_text(const Plan& plan);
+/// For a terminal, with a line break at the end: what came out in which order, what stays, what was left out, what
+/// could not be solved. `details`: with the time of the search and the penetration of every step.
+DISMANTLE_API std::string summary_text(const Plan& plan, bool details = false);
 
 }  // namespace dismantle
