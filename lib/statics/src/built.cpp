@@ -103,27 +103,33 @@ bool BuiltPiles::bonded(PartId a, PartId b) const {
 
 double BuiltPiles::touching(Gaps gaps) const { return (gaps == Gaps::play ? kPlay : 1) * options_.touching; }
 
-std::vector<Contact> BuiltPiles::contacts(const PlacedPart& a, const PlacedPart& b, Gaps gaps) const {
-  const Neighbour* near = neighbour(a.part, b.part);
-  const bool bond = bonded(a.part, b.part);
-  const Pose to_b = relative(a, b);
-  std::vector<Contact> result;
-  if (to_b.t.norm() > kSamePose * size_ || to_b.q.vec().norm() > kSamePose) {
-    result = pair_contacts({&shape(a.part), a.pose}, {&shape(b.part), b.pose}, touching(gaps), bond, 0);
-  } else {
-    const std::tuple key(a.part, b.part, gaps);
-    auto known = contacts_.find(key);
-    if (known == contacts_.end()) known = contacts_
-                  .emplace(key, pair_contacts({&shape(a.part), {}}, {&shape(b.part), {}}, touching(gaps), bond,
-                                              near == nullptr ? 0 : near->overlap))
-                  .first;
-    result = known->second;
-    for (Contact& c : result) {
-      c.normal = b.pose.q * c.normal;
-      for (Vec3& p : c.points) p = b.pose * p;
-    }
+const std::vector<Contact>& BuiltPiles::as_assembled(PartId a, PartId b, Gaps gaps) const {
+  const std::tuple key(a, b, gaps);
+  auto known = contacts_.find(key);
+  if (known == contacts_.end()) {
+    const Neighbour* near = neighbour(a, b);
+    known = contacts_
+                .emplace(key, pair_contacts({&shape(a), {}}, {&shape(b), {}}, touching(gaps), bonded(a, b),
+                                            near == nullptr ? 0 : near->overlap))
+                .first;
+    for (Contact& c : known->second) c.friction = options_.friction;
   }
-  for (Contact& c : result) c.friction = options_.friction;
+  return known->second;
+}
+
+std::vector<Contact> BuiltPiles::contacts(const PlacedPart& a, const PlacedPart& b, Gaps gaps) const {
+  const Pose to_b = relative(a, b);
+  if (to_b.t.norm() > kSamePose * size_ || to_b.q.vec().norm() > kSamePose) {
+    std::vector<Contact> result = pair_contacts({&shape(a.part), a.pose}, {&shape(b.part), b.pose}, touching(gaps),
+                                                bonded(a.part, b.part), 0);
+    for (Contact& c : result) c.friction = options_.friction;
+    return result;
+  }
+  std::vector<Contact> result = as_assembled(a.part, b.part, gaps);
+  for (Contact& c : result) {
+    c.normal = b.pose.q * c.normal;
+    for (Vec3& p : c.points) p = b.pose * p;
+  }
   return result;
 }
 
@@ -252,7 +258,10 @@ std::size_t BuiltPiles::unsupported(std::span<const PlacedPart> parts, std::span
     for (std::size_t i = 0; i < body.size(); ++i)
       for (const Neighbour& n : neighbours_[body[i].part]) {
         const PlacedPart* other = there[n.part];
-        if (other == nullptr || seen[n.part] || !n.bonded || contacts(body[i], *other, Gaps::tight).empty()) continue;
+        if (other == nullptr || seen[n.part] || !n.bonded) continue;
+        if (in_place ? as_assembled(body[i].part, n.part, Gaps::tight).empty()
+                     : contacts(body[i], *other, Gaps::tight).empty())
+          continue;
         seen[n.part] = true;
         body.push_back(*other);
       }

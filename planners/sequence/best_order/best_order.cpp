@@ -98,6 +98,8 @@ class Rewriting {
       const Eigen::Vector3d up = (axis % 2 == 0 ? 1 : -1) * Eigen::Vector3d::Unit(axis / 2);
       if (up.dot(query.objective.up) < 1 - 1e-9) scene_.ups.emplace_back(up);
     }
+    const auto steps = static_cast<double>(plan_.size());
+    if (steps * steps * static_cast<double>(scene_.ups.size()) > params.effort) keep_best_up();
   }
 
   void run(SequenceResult& result) {
@@ -114,6 +116,20 @@ class Rewriting {
   }
 
  private:
+  /// Too many steps to try each in each orientation: as drawn, and the one in which the first plan is best all along.
+  void keep_best_up() {
+    std::optional<Eigen::Vector3d> best;
+    double least = kForbidden;
+    for (const std::optional<Eigen::Vector3d>& up : scene_.ups) {
+      const double cost = order::estimate_of(plan_, query_, up.value_or(query_.objective.up), context_);
+      if (!(cost < least - kSame)) continue;
+      least = cost;
+      best = up;
+    }
+    scene_.ups = {std::nullopt};
+    if (best) scene_.ups.push_back(best);
+  }
+
   std::vector<Step> search(std::vector<Block>& blocks) {
     std::vector<Step> steps;
     bound_ = 0;

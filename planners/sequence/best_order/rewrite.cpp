@@ -63,14 +63,19 @@ std::vector<Block> blocks_of(const std::vector<Removal>& plan, OrderScene& scene
   return blocks;
 }
 
-double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, const RunContext& context) {
+namespace {
+
+/// Sum of what `ask` says of the steps as assembly operations. `up`: overrides that of the steps.
+template <class Ask>
+double sum_of(const std::vector<Removal>& plan, const SequenceQuery& query, const std::optional<Eigen::Vector3d>& up,
+              const RunContext& context, Ask ask) {
   Disassembly done(query.assembly.parts.size(), query.start);
   std::deque<Operation> operations;
   for (const Removal& removal : plan) {
     const std::size_t group = done.group(removal.parts.front());
     const std::vector<PartId> rest = without(done.groups()[group], removal.parts);
     operations.emplace_front(query.assembly, done.placed(removal.parts), done.placed(rest), removal.attempt->path(),
-                             removal.up.value_or(query.objective.up));
+                             up.value_or(removal.up.value_or(query.objective.up)));
     done.add(step_of(removal));
   }
   std::deque<StepQuestion> alone, questions;
@@ -80,7 +85,7 @@ double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, con
   double sum = 0;
   try {
     for (const StepQuestion& question : questions) {
-      const ObjectiveVerdict verdict = query.objective.judge(question, context);
+      const ObjectiveVerdict verdict = ask(question);
       if (verdict.refused) return kForbidden;
       sum += verdict.cost;
     }
@@ -91,6 +96,19 @@ double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, con
     throw CheckFailed(e.what());
   }
   return sum;
+}
+
+}  // namespace
+
+double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, const RunContext& context) {
+  return sum_of(plan, query, std::nullopt, context,
+                [&](const StepQuestion& question) { return query.objective.judge(question, context); });
+}
+
+double estimate_of(const std::vector<Removal>& plan, const SequenceQuery& query, const Eigen::Vector3d& up,
+                   const RunContext& context) {
+  return sum_of(plan, query, up, context,
+                [&](const StepQuestion& question) { return query.objective.estimate(question, context); });
 }
 
 Removal verified(const Step& step, const Disassembly& now, OrderScene& scene, std::vector<PartId>& blocked_by) {

@@ -29,6 +29,9 @@ std::vector<Block> blocks_of(const std::vector<Removal>& plan, OrderScene& scene
 
 /// Cost of a plan, as the engine judges it.
 double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, const RunContext& context);
+/// The same by estimates, and with the whole lying with `up` (unit) upwards all the time.
+double estimate_of(const std::vector<Removal>& plan, const SequenceQuery& query, const Eigen::Vector3d& up,
+                   const RunContext& context);
 
 /// A removal that the oracle has accepted, in the state `now`; for a refusal its parts are empty.
 Removal verified(const Step& step, const Disassembly& now, OrderScene& scene, std::vector<PartId>& blocked_by);

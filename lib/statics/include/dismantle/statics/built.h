@@ -70,6 +70,7 @@ class DISMANTLE_API BuiltPiles {
   Body body(const PlacedPart& part) const;
   /// Contacts of a on b; Contact::a and b are not set.
   std::vector<Contact> contacts(const PlacedPart& a, const PlacedPart& b, Gaps gaps) const;
+  const std::vector<Contact>& as_assembled(PartId a, PartId b, Gaps gaps) const;
   double touching(Gaps gaps) const;
   bool bonded(PartId a, PartId b) const;
   bool stands(std::vector<PlacedPart> body, std::vector<PlacedPart> near, Eigen::Vector3d up, double table,
