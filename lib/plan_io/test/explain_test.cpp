@@ -182,16 +182,22 @@ TEST(Explain, OrderIsThatOfThePlan) {
       step.separates = {{name(i)}};
       for (unsigned a = 1; a < i; ++a)
         if (rng.below(3) == 0) step.after.push_back(a);
+      PlanVerdict check;
+      check.notes = {{"gravity", "Hold '" + name(i) + "': it falls down otherwise.", ""}};
+      step.checks.push_back(check);
       plan.disassembly.push_back(step);
     }
     const Explanation e = explain(plan, {});
     ASSERT_EQ(e.steps.size(), count - 1);
+    for (const StepReason& step : e.steps)
+      EXPECT_NE(explain_text(e).find("put in: Hold '" + step.parts.front() + "'"), std::string::npos);
     for (const StepReason& step : e.steps) {
       ASSERT_EQ(step.after.size(), step.waited_for.size());
       for (std::size_t k = 0; k < step.after.size(); ++k) EXPECT_EQ(step.waited_for[k], name(step.after[k]));
     }
     const auto json = nlohmann::json::parse(explain_json(e));
     EXPECT_EQ(json["steps"].size(), count - 1);
+    EXPECT_EQ(json["steps"][0]["notes"].size(), 1u);
     EXPECT_EQ(json["status"], "complete");
     EXPECT_EQ(explain(plan, {}, name(1)).steps.size(), 1u);
     EXPECT_TRUE(explain(plan, {}, name(0)).steps.empty());

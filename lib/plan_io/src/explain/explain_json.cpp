@@ -64,6 +64,8 @@ std::string explain_json(const Explanation& e) {
       if (forced->certificate) one["forced"]["certificate"] = *forced->certificate + 1;
       if (forced->lower_bound) one["forced"]["lower_bound"] = true;
     }
+    for (const PlanVerdict& verdict : plan.disassembly.at(s.step - 1).checks)
+      for (const StepNote& note : verdict.notes) one["notes"].push_back(note.text);
     steps.push_back(std::move(one));
   }
   for (const LeftReason& reason : e.left) left.push_back(reason_json(plan, reason));

@@ -87,6 +87,14 @@ std::string earlier_text(const Explanation& e, const std::vector<unsigned>& step
   return out;
 }
 
+/// What the step checks say of the step as an assembly operation.
+std::string notes_text(const PlanStep& step) {
+  std::string out;
+  for (const PlanVerdict& verdict : step.checks)
+    for (const StepNote& note : verdict.notes) out += fmt::format("{:>5}  put in: {}\n", "", note.text);
+  return out;
+}
+
 std::string steps_text(const Explanation& e) {
   if (e.steps.empty()) return "";
   std::size_t width = 4;
@@ -101,6 +109,7 @@ std::string steps_text(const Explanation& e) {
       if (done.forced->certificate)
         out += fmt::format("{:>5}  proof {} of the plan; `dismantle verify` checks it again\n", "",
                            *done.forced->certificate + 1);
+      out += notes_text(done);
       continue;
     }
     if (!step.known)
@@ -111,6 +120,7 @@ std::string steps_text(const Explanation& e) {
       out += fmt::format("needed {} {} first: what {} took out was in its path\n",
                          step.after.size() == 1 ? "step" : "steps", earlier_text(e, step.after),
                          step.after.size() == 1 ? "it" : "they");
+    out += notes_text(done);
   }
   return out;
 }
