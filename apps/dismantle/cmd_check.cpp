@@ -105,6 +105,7 @@ void add_check(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({"y", "z"}))
       ->option_text("y|z");
   options->config.add_file_and_set(*command);
+  options->config.add_key(*command, "--unit", "assembly.unit", "UNIT", "Unit of an input that names none: mm, inch...");
   options->config.add_key(*command, "--threads", "run.threads", "N", "Threads, 0 = all cores");
   add_format(*command, options->console);
   add_verbosity(*command, options->console);

@@ -254,6 +254,7 @@ void add_plan(CLI::App& app, Action& action) {
   options->config.add_key(*command, "--seed", "run.seed", "N", "Seed");
   options->config.add_key(*command, "--path-timeout", "run.path_timeout", "S", "Seconds for one attempt, 0 = no limit");
   options->config.add_key(*command, "--timeout", "run.timeout", "S", "Seconds for the whole run, 0 = no limit");
+  options->config.add_key(*command, "--unit", "assembly.unit", "UNIT", "Unit of an input that names none: mm, inch...");
   options->config.add_key(*command, "--threads", "run.threads", "N", "Threads, 0 = all cores");
   auto* isolate = command->add_flag("--isolate", options->isolate,
                                     "Run in a child process: a plugin that crashes or hangs costs no finished step");

@@ -83,6 +83,7 @@ Assembly assembly_of_plan(const Plan& plan, InputParts input, const std::string&
   options.weld = plan.assembly.repair.weld;
   options.repair = plan.assembly.repair.repair;
   options.max_hole = plan.assembly.repair.max_hole;
+  options.unit = plan.assembly.unit;
   options.drop_duplicates = false;  // the plan says which parts stay
   options.subdivide = 0;
   options.flexible = FlexibleParts::declared;  // recognised below, only parts that the plan names

@@ -11,6 +11,7 @@
 #include "assembly_steps.h"
 #include "dismantle/computed_once.h"
 #include "dismantle/errors.h"
+#include "dismantle/geometry/length_unit.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/mesh_subdivide.h"
 #include "dismantle/preparation/flexible_parts.h"
@@ -200,6 +201,12 @@ class Preparation {
     for (const auto& c : parts_)
       if (!c.unit.empty()) units.emplace(c.unit, c.name);
     if (units.size() == 1) assembly_.unit = units.begin()->first;
+    if (units.empty()) assembly_.unit = unit_named(options_.unit);
+    if (units.empty() && !options_.unit.empty() && assembly_.unit.empty())
+      throw Error(fmt::format("assembly.unit: '{}' is no unit of length; write mm, cm, m or inch", options_.unit));
+    if (units.size() == 1 && !options_.unit.empty() && unit_named(options_.unit) != assembly_.unit)
+      warn(fmt::format("the files say that they are in {}; assembly.unit, {}, is for files that name no unit",
+                       assembly_.unit, options_.unit));
     if (units.size() < 2) return;
     std::string text;
     for (const auto& [unit, name] : units) text += fmt::format("{}'{}' in {}", text.empty() ? "" : ", ", name, unit);

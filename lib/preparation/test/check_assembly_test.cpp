@@ -131,13 +131,16 @@ TEST(CheckAssembly, ContactsOfSamplesAreThoseOfTheirTruth) {
     std::size_t overlapping = 0;
     for (const CheckedContact& c : check.contacts)
       if (c.place.contact != ContactClass::clearance && c.place.contact != ContactClass::kissing) ++overlapping;
-    EXPECT_EQ(overlapping, model.truth.contacts.size());
+    EXPECT_EQ(static_cast<long>(overlapping),
+              std::count_if(model.truth.contacts.begin(), model.truth.contacts.end(),
+                            [](const samples::TruthContact& c) { return c.contact != ContactClass::kissing; }));
     for (const samples::TruthContact& truth : model.truth.contacts) {
       const CheckedContact* found = contact_of(check, truth.a, truth.b);
       ASSERT_TRUE(found) << truth.a << " " << truth.b;
       EXPECT_EQ(to_string(found->place.contact), to_string(truth.contact));
       EXPECT_NEAR(found->depth, truth.depth, truth.depth_error + 0.01 * truth.depth + 2 * kTolerance / scale);
       EXPECT_EQ(found->place.axis.has_value(), truth.contact == ContactClass::uniform_interference);
+      if (truth.contact == ContactClass::kissing) continue;  // no overlap
       const bool reported = std::any_of(check.findings.begin(), check.findings.end(), [&](const Finding& f) {
         return f.contact == truth.contact &&
                std::is_permutation(f.parts.begin(), f.parts.end(), std::vector{truth.a, truth.b}.begin());

@@ -36,7 +36,7 @@ Mesh box_at(double x, double y = 0, double z = 0) { return moved(kUnit, shift({x
 TEST(Prepare, SchemaIsSound) {
   const Schema<PrepareOptions> schema;
   EXPECT_TRUE(problems_of_schema(schema.specs()).empty()) << problems_of_schema(schema.specs()).front();
-  EXPECT_EQ(schema.specs().size(), 13u);
+  EXPECT_EQ(schema.specs().size(), 14u);
 }
 
 TEST(Prepare, ScalesTheBoxOfAllPartsToTen) {

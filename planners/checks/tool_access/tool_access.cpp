@@ -100,6 +100,10 @@ class Judge {
   void note(const char* kind, std::string text, const Driven& driven, nlohmann::json data) {
     data["part"] = name(driven);
     if (!driven.size.empty()) data["size"] = driven.size;
+    if (memo_.assembly().unit.empty()) {
+      data["assumed"] = "mm";
+      text += " (The input states no unit; mm is assumed.)";
+    }
     verdict_.notes.push_back({fmt::format("tool_access.{}", kind), std::move(text), data.dump()});
   }
   std::string label(const Driven& driven) const {
@@ -124,10 +128,7 @@ class Judge {
       return;
     const bool no_drive = f.kind != fasteners::Kind::ring && (f.drive == fasteners::Drive::none || !(f.size > 0));
     const bool no_size = f.kind != fasteners::Kind::ring && (driven.size.empty() || driven.size.front() == '?');
-    const char* why = memo_.assembly().unit.empty() ? "the input states no unit"
-                      : no_drive                    ? "its drive is not recognised"
-                      : no_size                     ? "its size is in no table"
-                                                    : nullptr;
+    const char* why = no_drive ? "its drive is not recognised" : no_size ? "its size is in no table" : nullptr;
     if (why != nullptr) {
       note("not_checked", fmt::format("Whether a tool reaches '{}' was not checked: {}.", name(driven), why), driven,
            {{"reason", why}});

@@ -38,6 +38,7 @@ struct PrepareOptions {
   bool normalize = true;           ///< step 7
   double size = 10.0;              ///< step 7: largest edge of the bounding box, assembly units
   double subdivide = 0.5;          ///< step 9: longest edge, assembly units; 0 = off
+  std::string unit;  ///< of an input that names none; empty: not known. Names as in unit_named()
   FlexibleParts flexible = FlexibleParts::recognised;
   std::int64_t max_triangles = 5'000'000;  ///< refuse larger assemblies with a clear message
   DISMANTLE_API static void describe(Schema<PrepareOptions>& s);
