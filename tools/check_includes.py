@@ -3,7 +3,7 @@
 
 - core <- process; core <- parallel <- geometry <- fasteners (<- tools), verification <- preparation, plan_io <- book, orders, engine <- host <- session <- apps, bench: no #include against the arrows;
 - a plugin includes core, geometry, the plugin sdk and the shared libraries of its kind (folders without a plugin: KIND/common and
-  others that build a library), an importer also process, a step check also statics, fasteners or tools; never another plugin;
+  others that build a library), an importer also process, a step check also statics, fasteners or tools, a sequence planner also ordering; never another plugin;
 - core has at most 2500 lines of code (comments and empty lines are free), a file 400, a class 40 methods (a rough count of the declarations in its body)."""
 import argparse
 import os
@@ -23,13 +23,14 @@ ALLOWED = {
     "lib/parallel": set(),
     "lib/process": set(),
     "lib/geometry": set(),
+    "lib/ordering": set(),
     "lib/statics": {"lib/geometry"},
     "lib/fasteners": {"lib/geometry"},
     "lib/tools": {"lib/geometry", "lib/fasteners"},
     "lib/verification": {"lib/geometry"},
     "lib/preparation": {"lib/geometry", "lib/fasteners", "lib/verification"},
     "lib/plan_io": {"lib/geometry"},
-    "lib/orders": {"lib/geometry", "lib/verification", "lib/plan_io"},
+    "lib/orders": {"lib/geometry", "lib/ordering", "lib/verification", "lib/plan_io"},
     "lib/book": {"lib/geometry", "lib/plan_io"},
     "lib/samples": {"lib/geometry"},
     "lib/engine": BELOW_ENGINE,
@@ -38,11 +39,12 @@ ALLOWED = {
     "lib/session": BELOW_ENGINE | {"lib/engine", "plugins/sdk", "plugins/host"},
     "plugins/testing": BELOW_ENGINE | {"lib/engine", "lib/samples", "plugins/sdk", "plugins/host"},
     "lib/bench": BELOW_ENGINE | {"lib/process", "lib/engine", "lib/samples", "lib/session", "plugins/sdk", "plugins/host"},
-    "apps": BELOW_ENGINE | {"lib/statics", "lib/process", "lib/book", "lib/orders", "lib/engine", "lib/samples", "lib/session", "lib/bench", "plugins/sdk", "plugins/host"},
+    "apps": BELOW_ENGINE | {"lib/statics", "lib/ordering", "lib/process", "lib/book", "lib/orders", "lib/engine", "lib/samples", "lib/session", "lib/bench", "plugins/sdk", "plugins/host"},
 }
 PLUGIN_MAY = {"lib/geometry", "plugins/sdk"}
 IMPORTER_MAY = PLUGIN_MAY | {"lib/process"}
 CHECK_MAY = PLUGIN_MAY | {"lib/statics", "lib/fasteners", "lib/tools"}
+SEQUENCE_MAY = PLUGIN_MAY | {"lib/ordering"}
 # Folders of plugin kinds, and the depth of the plugin folders below them.
 KINDS = {"simulators": 1, "plugins/importers": 1, "planners": 2}
 
@@ -178,7 +180,8 @@ def check(root):
             continue
         allowed = ALLOWED[place] if place in ALLOWED else shared_for(place, libraries) | (
             IMPORTER_MAY if kind_of(place) == "plugins/importers" else
-            CHECK_MAY if place.startswith("planners/checks/") else PLUGIN_MAY)
+            CHECK_MAY if place.startswith("planners/checks/") else
+            SEQUENCE_MAY if place.startswith("planners/sequence/") else PLUGIN_MAY)
         for included in INCLUDE.findall(text[f]):
             target = target_of(f, included)
             to = target and place_of(target)

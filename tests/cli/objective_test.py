@@ -101,6 +101,25 @@ class Objective(CliTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(len(self.read_plan("one")["disassembly"]), 1)
 
+    def test_a_target_takes_the_fewest_steps_and_the_plan_says_so(self):
+        self.write("tower/foot.obj", box((0, 0, 0), (9, 9, 1)))
+        for k in range(3):  # between a foot and a roof
+            self.write(f"tower/slab{k}.obj", box((1, 1, 1 + k), (8, 8, 2 + k)))
+        self.write("tower/roof.obj", box((0, 0, 4), (9, 9, 5)))
+        walls = [((0, 0, 1), (1, 9, 4)), ((8, 0, 1), (9, 9, 4)), ((1, 0, 1), (8, 1, 4)), ((1, 8, 1), (8, 9, 4))]
+        for k, (lo, hi) in enumerate(walls):
+            self.write(f"tower/wall{k}.obj", box(lo, hi))
+        for objective, cost in (("[]", 2000), ("[{type: steps, weight: 3}]", 6), ("[directions]", 2000)):
+            done = self.run_program("plan", "tower", "-o", "out", *self.QUICK, "--set", "objective=" + objective, "--target", "slab1")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            plan = self.read_plan("out")
+            self.assertEqual(len(plan["disassembly"]), 2)
+            self.assertEqual(plan["disassembly"][1]["separates"][0], ["slab1"])
+            self.assertEqual(plan["objective"]["least_cost"], plan["objective"]["cost"])
+            self.assertGreaterEqual(plan["objective"]["cost"], cost)
+            self.assertIn("no order of these motions costs less", done.stdout)
+            self.run_program("verify", "out/plan.json", "-q", status=0)
+
     def test_a_verdict_that_differs_makes_the_plan_invalid(self):
         self.plan_with("[directions]", "out")
         def cheaper(plan):

@@ -31,6 +31,9 @@ std::string objective_text(const Plan& plan) {
   const PlanObjective& objective = plan.objective;
   if (objective.empty()) return "";
   std::string out = fmt::format("objective: {:.4g} in all", objective.cost);
+  if (const auto& least = objective.least_cost)
+    out += *least < objective.cost ? fmt::format(" (no order of these motions costs less than {:.4g})", *least)
+                                   : std::string(" (no order of these motions costs less)");
   for (const PlanObjectiveItem& item : objective.checks)
     out += fmt::format("; {}: {:.4g}, weight {:.4g}", item.type, item.cost, item.weight);
   const auto count = [&](auto which) {

@@ -32,9 +32,20 @@ PluginChoice with_last_resort(const RunConfig& config, const Registry& registry)
   return {"chain", {{"of", std::vector<PluginChoice>{config.sequence_planner, {"least_cut", {}, {}}}}}, {}};
 }
 
+/// With a target, steps are counted: one more costs more than other checks usually say of a step.
+std::vector<PluginChoice> objective_of(const RunConfig& config, const Registry& registry) {
+  std::vector<PluginChoice> objective = config.objective;
+  const auto counts = [](const PluginChoice& choice) { return choice.type == "steps"; };
+  constexpr double kWeight = 1000;
+  if (!config.constraints.target.empty() && registry.lookup(PluginKind::step_check, "steps") != nullptr &&
+      std::none_of(objective.begin(), objective.end(), counts))
+    objective.push_back({"steps", {}, {{"weight", kWeight}, {"require", false}}});
+  return objective;
+}
+
 /// The same in a `best_order`, if there is an objective.
 PluginChoice with_best_order(const RunConfig& config, const Registry& registry, PluginChoice sequence) {
-  if (!config.run.best_order || config.objective.empty() || names(sequence, "best_order") ||
+  if (!config.run.best_order || objective_of(config, registry).empty() || names(sequence, "best_order") ||
       registry.lookup(PluginKind::sequence_planner, "best_order") == nullptr)
     return sequence;
   return {"best_order", {{"of", std::move(sequence)}}, {}};
@@ -61,7 +72,7 @@ PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registr
   for (const PluginChoice& choice : config.provers)
     out.provers.push_back({choice.type, registry.create<ImmobilityProver>(choice.type, choice.parameters)});
   out.objective.up = config.layout.up_axis();
-  for (const PluginChoice& choice : config.objective) {
+  for (const PluginChoice& choice : objective_of(config, registry)) {
     const ObjectiveOptions options = Schema<ObjectiveOptions>().bind(choice.options);
     out.objective.items.push_back({choice.type, registry.create<StepCheck>(choice.type, choice.parameters),
                                    options.weight, options.require, choice.parameters});

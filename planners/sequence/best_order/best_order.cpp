@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "best_order/rewrite.h"
+#include "dismantle/part_set.h"
 
 namespace dismantle {
 
@@ -15,6 +16,7 @@ using order::Block;
 using order::CheckFailed;
 using order::Effort;
 using order::kForbidden;
+using order::kSame;
 using order::OrderScene;
 using order::Segment;
 using order::Step;
@@ -31,8 +33,6 @@ void BestOrderParams::describe(Schema<BestOrderParams>& s) {
 }
 
 namespace {
-
-constexpr double kSame = 1e-9;  // costs that differ by less are equal
 
 /// Passes removals on, and keeps them.
 class Keeper final : public SequenceObserver {
@@ -111,11 +111,37 @@ class Rewriting {
       if (!worth_it_ || record(steps, before)) break;
     }
     if (bounded_) result.least_cost = std::min(bound_, after_ < kForbidden ? after_ : before);
+    count(result, before);
+  }
+
+  /// The same for the steps to a target. `solved`: those of the plan take it out.
+  void run_to_target(SequenceResult& result, bool solved) {
+    const PartId target = *query_.constraints.target;
+    const auto group = std::find_if(query_.start.begin(), query_.start.end(),
+                                    [&](const std::vector<PlacedPart>& list) { return contains(list, target); });
+    if (group == query_.start.end()) return;
+    const bool forced =
+        std::any_of(plan_.begin(), plan_.end(), [](const Removal& r) { return r.attempt->forced != nullptr; });
+    const double before = solved && !forced ? order::cost_of(plan_, query_, context_) : kForbidden;
+    const order::StepsToTarget planned = order::steps_to_target(plan_, query_);
+    Segment segment(scene_, *group, planned.steps, Segment::ToTarget{});
+    constexpr int kRounds = 16;  // a refusal of the verifier is known in the next one
+    for (int round = 0; round < kRounds && !context_.should_stop(); ++round) {
+      const std::vector<Step> steps = search_to_target(segment, target, planned, before);
+      if (!worth_it_ || record(steps, before)) break;
+    }
+    // The search knows nothing about steps of the plan that it cannot put elsewhere.
+    if (after_ < kForbidden || (before < kForbidden && planned.whole))
+      result.least_cost = std::min({bound_, before, after_});
+    count(result, before);
+  }
+
+ private:
+  void count(SequenceResult& result, double before) const {
     result.counts["order_effort"] = static_cast<double>(spent_);
     result.counts["order_saved"] = before < kForbidden && after_ < kForbidden ? before - after_ : 0;
   }
 
- private:
   /// Too many steps to try each in each orientation: as drawn, and the one in which the first plan is best all along.
   void keep_best_up() {
     std::optional<Eigen::Vector3d> best;
@@ -128,6 +154,31 @@ class Rewriting {
     }
     scene_.ups = {std::nullopt};
     if (best) scene_.ups.push_back(best);
+  }
+
+  std::vector<Step> search_to_target(Segment& segment, PartId target, const order::StepsToTarget& planned, double before) {
+    const order::UnitSet all(segment.units(), true);
+    const std::vector<VariantId> first = segment.as_planned();
+    order::Task task;
+    task.start = all;
+    const bool whole = before < kForbidden && planned.whole && first.size() == planned.steps.size();
+    const double known = whole ? order::cost_of(segment, task, first) : before + segment.most_preference();
+    Effort own{effort_.left / 2, effort_.stop};
+    const std::uint64_t given = own.left;
+    order::WayToTarget found = order::way_to(segment, all, segment.unit_of(target), known, own);
+    effort_.left -= given - own.left;
+    spent_ += given - own.left;
+    worth_it_ = !found.best.variants.empty();
+    if (!worth_it_) found.best = {whole ? first : std::vector<VariantId>{}, known};
+    // What the checks say of a path is known when the step is planned. Costs that differ by less than the preferences
+    // count as equal.
+    const double sure = segment.unsure() ? found.floor : segment.exact() ? found.bound : found.least;
+    const double slack = segment.most_preference(), cost = found.best.cost - segment.preference(found.best.variants);
+    bound_ = cost - sure <= 2 * slack + kSame ? cost : std::max(0.0, sure - slack);
+    std::vector<Step> steps;
+    if (!worth_it_) return steps;
+    for (const VariantId v : found.best.variants) steps.push_back({nullptr, &segment, v});
+    return steps;
   }
 
   std::vector<Step> search(std::vector<Block>& blocks) {
@@ -188,9 +239,10 @@ class Rewriting {
         const_cast<Segment*>(step.segment)->forbid(step.variant, blocked_by);
         return false;
       }
+      const std::size_t group = now.group(removal.parts.front());
       now.add(step_of(removal));
       done.push_back(removal);
-      keeper_.removed(removal, old[done.size() - 1].second);
+      keeper_.removed(removal, now.groups()[group].size());
       context_.progress("order", done.size(), steps.size());
     }
     const double cost = order::cost_of(done, query_, context_);
@@ -234,14 +286,18 @@ SequenceResult BestOrder::plan(const SequenceQuery& query, PathOracle& oracle, S
       inner_->plan({query.assembly, query.start, query.constraints, required, query.said}, oracle, keeper, context);
   for (Removal& removal : result.removals)
     if (removal.planner.empty()) removal.planner = params_.of.type();
-  // The way to a target is short already, and ends with it.
-  if (query.objective.empty() || query.constraints.target) return result;
-  if (result.removals.size() < 2 || context.should_stop() || result.outcome == Outcome::crashed) return result;
+  const bool to_target = query.constraints.target.has_value();
+  if (query.objective.empty() || context.should_stop() || result.outcome == Outcome::crashed) return result;
+  if (!to_target && result.removals.size() < 2) return result;
   // The checks may depend on what the inner planner has announced only, which is what was recorded.
   std::vector<Removal> plan;
   for (const auto& [removal, left] : keeper.all) plan.push_back(removal);
   try {
-    Rewriting(params_, query, oracle, keeper, context, plan).run(result);
+    Rewriting rewriting(params_, query, oracle, keeper, context, plan);
+    if (to_target)
+      rewriting.run_to_target(result, is_success(result.outcome));
+    else
+      rewriting.run(result);
   } catch (const CheckFailed& e) {
     context.log(LogLevel::error, std::string("the order is not improved, a step check failed: ") + e.what());
   }
@@ -250,6 +306,10 @@ SequenceResult BestOrder::plan(const SequenceQuery& query, PathOracle& oracle, S
   for (const auto& [removal, left] : keeper.all) {
     done.add(step_of(removal));
     result.removals.push_back(removal);
+  }
+  if (to_target && fulfilled(done, query.constraints)) {
+    result.outcome = Outcome::solved;
+    result.unsolved.clear();
   }
   result.remaining.clear();
   for (const std::vector<PartId>& group : done.groups())

@@ -63,6 +63,24 @@ std::vector<Block> blocks_of(const std::vector<Removal>& plan, OrderScene& scene
   return blocks;
 }
 
+StepsToTarget steps_to_target(const std::vector<Removal>& plan, const SequenceQuery& query) {
+  const PartId target = *query.constraints.target;
+  Disassembly done(query.assembly.parts.size(), query.start);
+  const std::size_t group = done.group(target);
+  StepsToTarget result;
+  for (const Removal& removal : plan) {
+    if (done.group(removal.parts.front()) == group) {
+      if (!is_plain(removal)) return result;
+      if (contains(removal.parts, target) && !kept_together(removal.parts, query.constraints)) return result;
+      result.steps.push_back(&removal);
+    }
+    done.add(step_of(removal));
+    if (done.group(target) != group) break;
+  }
+  result.whole = fulfilled(done, query.constraints);
+  return result;
+}
+
 namespace {
 
 /// Sum of what `ask` says of the steps as assembly operations. `up`: overrides that of the steps.

@@ -14,7 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPreference = 1e-7;  // of a direction, by one degree; far below all costs of checks
 constexpr std::size_t kClasses = 63;  // of variants; the last one is for all others
 
 bool same(const Vector3d& a, const Vector3d& b) { return a.dot(b) > geometry::kSameDirection || (a.isZero() && b.isZero()); }
@@ -42,6 +41,29 @@ bool is_straight(const Path& path) {
 
 Segment::Segment(OrderScene& scene, std::vector<PlacedPart> start, std::vector<const Removal*> planned)
     : scene_(scene), start_(std::move(start)) {
+  prepare();
+  add_units(planned);
+  add_moves(planned);
+  add_variants();
+  find_bounds();
+}
+
+Segment::Segment(OrderScene& scene, std::vector<PlacedPart> start, std::vector<const Removal*> planned, ToTarget)
+    : scene_(scene), start_(std::move(start)) {
+  prepare();
+  add_kept_units();
+  UnitSet present(units(), true);
+  for (const Removal* removal : planned) {
+    for (const PartId id : removal->parts) present.erase(unit_of_.at(id));
+    add_planned(removal, present);
+    if (moves_.back().units.size() > 1) in_group_ |= moves_.back().units;
+  }
+  for (std::size_t u = 0; scene_.sweep != nullptr && u < units(); ++u) add_straight(u);
+  add_variants();
+  find_bounds();
+}
+
+void Segment::prepare() {
   if (scene_.sweep != nullptr) {
     for (const PlacedPart& p : start_) orientations_.number_of(p.pose.q);
     relations_ = std::make_unique<blocking::Relations>(*scene_.sweep, scene_.directions, orientations_,
@@ -51,54 +73,60 @@ Segment::Segment(OrderScene& scene, std::vector<PlacedPart> start, std::vector<c
     items_.push_back({&item, item.check->traits(), {}});
     exact_ = exact_ && !items_.back().traits.reads_path && !items_.back().traits.estimates;
   }
-  add_units(planned);
-  add_moves(planned);
-  add_variants();
-  find_bounds();
 }
 
-/// A unit leaves as a whole: what a step of the first plan takes out, or what is left and is kept together.
-void Segment::add_units(const std::vector<const Removal*>& planned) {
+/// Parts that are in no unit yet: what is kept together is one.
+void Segment::add_kept_units() {
   const std::vector<PartId> kept = kept_sets(scene_.query.assembly.parts.size(), scene_.query.constraints);
-  const auto add_unit = [&](std::vector<PlacedPart> parts) {
-    for (const PlacedPart& p : parts) unit_of_[p.part] = parts_.size();
-    parts_.push_back(std::move(parts));
-  };
-  for (const Removal* removal : planned) {
-    std::vector<PlacedPart> parts;
-    for (const PlacedPart& p : start_)
-      if (contains(removal->parts, p.part)) parts.push_back(p);
-    add_unit(std::move(parts));
-  }
-  const std::size_t leaving = parts_.size();
   std::map<PartId, std::vector<PlacedPart>> left;
   for (const PlacedPart& p : start_)
     if (!unit_of_.contains(p.part)) left[kept[p.part]].push_back(p);
-  for (auto& [first, parts] : left) add_unit(std::move(parts));
-  stay_ = UnitSet(units());
-  one_left_ = units() == leaving + 1;
-  for (std::size_t u = leaving; u < units(); ++u) stay_.insert(u);
+  for (auto& [first, parts] : left) {
+    for (const PlacedPart& p : parts) unit_of_[p.part] = parts_.size();
+    parts_.push_back(std::move(parts));
+  }
+  stay_ = in_group_ = UnitSet(units());
   needs_gone_.assign(units(), UnitSet(units()));
   for (const auto& [first, then] : scene_.query.constraints.before)
     if (unit_of_.contains(first) && unit_of_.contains(then) && unit_of_[first] != unit_of_[then])
       needs_gone_[unit_of_[then]].insert(unit_of_[first]);
 }
 
+/// A unit leaves as a whole: what a step of the first plan takes out, or what is left and is kept together.
+void Segment::add_units(const std::vector<const Removal*>& planned) {
+  for (const Removal* removal : planned) {
+    std::vector<PlacedPart> parts;
+    for (const PlacedPart& p : start_)
+      if (contains(removal->parts, p.part)) parts.push_back(p);
+    for (const PlacedPart& p : parts) unit_of_[p.part] = parts_.size();
+    parts_.push_back(std::move(parts));
+  }
+  const std::size_t leaving = parts_.size();
+  add_kept_units();
+  one_left_ = units() == leaving + 1;
+  for (std::size_t u = leaving; u < units(); ++u) stay_.insert(u);
+}
+
 void Segment::add_moves(const std::vector<const Removal*>& planned) {
   UnitSet present(units(), true);
   for (std::size_t u = 0; u < planned.size(); ++u) {
     present.erase(u);
-    Move move{{planned[u]->parts, {}, planned[u], insertion_of(scene_.query.assembly, *planned[u])}, UnitSet(units()),
-              present, UnitSet(units()), {}, 0};
-    move.units.insert(u);
-    // A straight step is found again among the straight motions, with a path as long as it has to be.
-    if (scene_.sweep != nullptr && is_straight(planned[u]->attempt->path()))
-      for (std::size_t d = 0; d < scene_.directions.all.size(); ++d)
-        if (scene_.directions.all[d].dot(-move.motion.insertion) > 1 - 1e-12) move.motion.direction = d;
-    add(std::move(move));
+    add_planned(planned[u], present);
     if (scene_.sweep != nullptr && is_straight(planned[u]->attempt->path())) add_straight(u);
   }
   if (one_left_ && scene_.sweep != nullptr) add_straight(units() - 1);
+}
+
+/// `present`: what the step leaves behind.
+void Segment::add_planned(const Removal* planned, const UnitSet& present) {
+  Move move{{planned->parts, {}, planned, insertion_of(scene_.query.assembly, *planned)}, UnitSet(units()), present,
+            UnitSet(units()), {}, {}, 0};
+  for (const PartId id : planned->parts) move.units.insert(unit_of_.at(id));
+  // A straight step is found again among the straight motions, with a path as long as it has to be.
+  if (scene_.sweep != nullptr && is_straight(planned->attempt->path()))
+    for (std::size_t d = 0; d < scene_.directions.all.size(); ++d)
+      if (scene_.directions.all[d].dot(-move.motion.insertion) > 1 - 1e-12) move.motion.direction = d;
+  add(std::move(move));
 }
 
 void Segment::add_straight(std::size_t unit) {
@@ -111,11 +139,11 @@ void Segment::add_straight(std::size_t unit) {
   }
   for (const std::size_t d : own) {
     const bool there = std::any_of(moves_.begin(), moves_.end(), [&](const Move& m) {
-      return m.units.contains(unit) && m.motion.direction == d;
+      return m.units.contains(unit) && m.units.size() == 1 && m.motion.direction == d;
     });
     if (there) continue;
     Move move{{ids_of(parts_[unit]), d, nullptr, -scene_.directions.all[d]}, UnitSet(units()), UnitSet(units()),
-              UnitSet(units()), {}, 0};
+              UnitSet(units()), {}, {}, 0};
     move.units.insert(unit);
     add(std::move(move));
   }
@@ -171,6 +199,11 @@ void Segment::find_bounds() {
     change_ = std::min(change_, other - least_[v]);
   }
   if (!clear || !(change_ < std::numeric_limits<double>::infinity())) change_ = 0;
+  if (clear) return;
+  for (const Item* item : fixed)
+    for (VariantId v = 0; v < variants_.size(); ++v)
+      if (!item->traits.remembers_direction && !item->traits.remembers_orientation)
+        least_[v] += item->item->weight * judge(*item, v, UnitSet(units()), kNone);
 }
 
 Task Segment::task() const {
@@ -193,6 +226,16 @@ bool Segment::may_leave(VariantId v, const UnitSet& present) {
   bool free = true;
   open.each([&](std::size_t u) { free = free && !is_in_the_way(move, u); });
   return free;
+}
+
+const UnitSet& Segment::blocking(VariantId v) {
+  Move& move = moves_[variants_[v].move];
+  const UnitSet open = UnitSet(units(), true) - move.free - move.blocking - move.units;
+  open.each([&](std::size_t u) { is_in_the_way(move, u); });
+  move.needs = move.blocking;
+  move.units.each([&](std::size_t u) { move.needs |= needs_gone_[u]; });
+  move.needs -= move.units;
+  return move.needs;
 }
 
 /// Without effort left, what is not known is in the way.
@@ -261,124 +304,6 @@ void Segment::forbid(VariantId v, const std::vector<PartId>& blocked_by) {
   if (units.size() == 0) units = UnitSet(this->units(), true) - move.units;
   move.free = move.free - units;
   move.blocking |= units;
-}
-
-double Segment::preference(VariantId v) const {
-  const Vector3d& d = moves_[variants_[v].move].motion.insertion;
-  if (d.isZero()) return 0;
-  const double along = d.cwiseAbs().maxCoeff(), upwards = d.dot(up(v).value_or(scene_.query.objective.up));
-  constexpr double kAlong = 0.9998, kSteep = 0.7;  // within 1, and 45, degrees
-  return kPreference * ((along > kAlong ? 0 : 4) + (upwards > kSteep ? 2 : upwards > -kSteep ? 1 : 0));
-}
-
-double Segment::preference(const std::vector<VariantId>& order) const {
-  double sum = 0;
-  for (const VariantId v : order) sum += preference(v);
-  return sum;
-}
-
-double Segment::most_preference() const { return 6 * kPreference * static_cast<double>(units()); }
-
-std::size_t Segment::memory(const Item& item, VariantId v) const {
-  if (v == kNone) return 0;
-  const Variant& variant = variants_[v];
-  std::size_t key = 1;
-  key = key * (courses_.size() + 1) + (item.traits.remembers_direction ? 1 + moves_[variant.move].course : 0);
-  key = key * (scene_.ups.size() + 1) + (item.traits.remembers_orientation ? 1 + variant.up : 0);
-  return key * (moves_.size() + 1) + (item.traits.remembers_shape ? 1 + variant.move : 0);
-}
-
-double Segment::cost(VariantId v, const UnitSet& rest, VariantId previous) {
-  double sum = preference(v);
-  for (Item& item : items_) {
-    const bool reads_rest = item.traits.reads_present || item.traits.reads_path;
-    CostKey key{v, memory(item, previous), reads_rest ? rest : UnitSet()};
-    const auto known = item.known.find(key);
-    const double cost = known != item.known.end() ? known->second
-                                                   : item.known.emplace(std::move(key), judge(item, v, rest, previous)).first->second;
-    sum += cost == 0 ? 0 : item.item->weight * cost;
-    if (cost == kForbidden) return kForbidden;
-  }
-  return sum;
-}
-
-double Segment::judge(const Item& item, VariantId v, const UnitSet& rest, VariantId previous) {
-  const Move& move = moves_[variants_[v].move];
-  const auto moving_of = [&](const Move& m) {
-    std::vector<PlacedPart> parts;
-    m.units.each([&](std::size_t u) { parts.insert(parts.end(), parts_[u].begin(), parts_[u].end()); });
-    return parts;
-  };
-  const Vector3d& drawn = scene_.query.objective.up;
-  const std::vector<PlacedPart> moving = moving_of(move);
-  Trace insertion;
-  if (item.traits.reads_path) {
-    if (move.motion.direction) {
-      const Vector3d out = length_out(move, rest) * scene_.directions.all[*move.motion.direction];
-      insertion.resize(2);
-      for (const PlacedPart& p : moving) {
-        insertion[0].push_back({p.pose.t + out, p.pose.q});
-        insertion[1].push_back(p.pose);
-      }
-    } else {
-      insertion.assign(move.motion.planned->attempt->path().rbegin(), move.motion.planned->attempt->path().rend());
-    }
-  }
-  static const std::vector<PlacedPart> nothing;
-  const StepQuestion question{scene_.query.assembly,
-                              moving,
-                              item.traits.reads_present ? present(rest) : nothing,
-                              move.motion.insertion,
-                              insertion.empty() ? nullptr : &insertion,
-                              scene_.ups[variants_[v].up].value_or(drawn),
-                              nullptr};
-  try {
-    StepVerdict verdict;
-    if (previous == kNone) {
-      verdict = item.item->check->estimate(question, scene_.context);
-    } else {
-      const Move& earlier = moves_[variants_[previous].move];
-      const std::vector<PlacedPart> put_in = moving_of(earlier);
-      const StepQuestion before{scene_.query.assembly,    put_in,  nothing,
-                                earlier.motion.insertion, nullptr, scene_.ups[variants_[previous].up].value_or(drawn),
-                                nullptr};
-      StepQuestion with = question;
-      with.previous = &before;
-      verdict = item.item->check->estimate(with, scene_.context);
-    }
-    if (!(verdict.cost >= 0)) throw CheckFailed("its cost is not a number from 0 on");
-    return item.item->require && !verdict.allowed ? kForbidden : verdict.cost;
-  } catch (const std::exception& e) {
-    throw CheckFailed("'" + item.item->id + "': " + e.what());
-  }
-}
-
-const std::vector<PlacedPart>& Segment::present(const UnitSet& rest) {
-  if (!(rest == present_of_)) {
-    present_of_ = rest;
-    present_.clear();
-    rest.each([&](std::size_t u) { present_.insert(present_.end(), parts_[u].begin(), parts_[u].end()); });
-    std::sort(present_.begin(), present_.end(), [](const PlacedPart& a, const PlacedPart& b) { return a.part < b.part; });
-  }
-  return present_;
-}
-
-/// By boxes along the direction: an estimate from above of the length of the path in the plan.
-double Segment::length_out(const Move& move, const UnitSet& rest) {
-  const std::size_t d = *move.motion.direction;
-  const Vector3d& axis = scene_.directions.all[d];
-  double own = std::numeric_limits<double>::infinity(), others = -own;
-  const auto extent = [&](const PlacedPart& p) {
-    const auto [lo, hi] = relations_->extent(p.part, d, orientations_.number_of(p.pose.q));
-    return std::pair(lo + p.pose.t.dot(axis), hi + p.pose.t.dot(axis));
-  };
-  move.units.each([&](std::size_t u) {
-    for (const PlacedPart& p : parts_[u]) own = std::min(own, extent(p).first);
-  });
-  rest.each([&](std::size_t u) {
-    for (const PlacedPart& p : parts_[u]) others = std::max(others, extent(p).second);
-  });
-  return std::max(0.0, others - own);
 }
 
 }  // namespace dismantle::order

@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "best_order/order_search.h"
+#include "dismantle/ordering/order_search.h"
 #include "blocking_graph/relations.h"
 #include "dismantle/sequence_planner.h"
 
@@ -46,12 +46,17 @@ class Segment final : public Problem {
  public:
   /// `start`: the group; `planned`: its steps in the order of the first plan. All references must outlive this.
   Segment(OrderScene& scene, std::vector<PlacedPart> start, std::vector<const Removal*> planned);
+  struct ToTarget {};
+  /// For the way to one part: all units can leave, straight or, alone or together, as in a planned step. `planned`: steps
+  /// out of `start`, one after the other.
+  Segment(OrderScene& scene, std::vector<PlacedPart> start, std::vector<const Removal*> planned, ToTarget);
 
   std::size_t units() const override { return parts_.size(); }
   const std::vector<VariantId>& variants_of(std::size_t unit) const override { return of_unit_[unit]; }
-  bool leaves_alone(std::size_t /*unit*/) const override { return true; }
+  bool leaves_alone(std::size_t unit) const override { return !in_group_.contains(unit); }
   const UnitSet& leaving(VariantId v) const override { return moves_[variants_[v].move].units; }
   bool may_leave(VariantId v, const UnitSet& present) override;
+  const UnitSet& blocking(VariantId v) override;
   double cost(VariantId v, const UnitSet& rest, VariantId previous) override;
   double least(VariantId v) const override { return least_[v] + preference(v); }
   std::uint64_t classes(VariantId v) const override { return std::uint64_t{1} << class_of_[v]; }
@@ -62,6 +67,7 @@ class Segment final : public Problem {
   Task task() const;
   /// The steps of the first plan.
   std::vector<VariantId> as_planned() const;
+  std::size_t unit_of(PartId part) const { return unit_of_.at(part); }
   const Motion& motion(VariantId v) const { return moves_[variants_[v].move].motion; }
   const std::optional<Eigen::Vector3d>& up(VariantId v) const { return scene_.ups[variants_[v].up]; }
   const std::vector<PlacedPart>& start() const { return start_; }
@@ -82,6 +88,7 @@ class Segment final : public Problem {
     Motion motion;
     UnitSet units;
     UnitSet free, blocking;  ///< units that are known not to be in the way, or to be
+    UnitSet needs;           ///< as blocking(): these, and those that have to leave before
     std::vector<std::vector<Pose>> path;  ///< of a planned step: until it is apart from all of the start
     std::size_t course = 0;               ///< number of the direction of insertion
   };
@@ -104,8 +111,11 @@ class Segment final : public Problem {
   };
 
   double preference(VariantId v) const;
+  void prepare();
+  void add_kept_units();
   void add_units(const std::vector<const Removal*>& planned);
   void add_moves(const std::vector<const Removal*>& planned);
+  void add_planned(const Removal* planned, const UnitSet& present);
   void add_straight(std::size_t unit);
   void add(Move move);
   void add_variants();
@@ -122,6 +132,7 @@ class Segment final : public Problem {
   std::vector<std::vector<PlacedPart>> parts_;  // by unit
   std::map<PartId, std::size_t> unit_of_;
   UnitSet stay_;                   // units that the first plan does not remove
+  UnitSet in_group_;               // units that a planned step removes together with others
   bool one_left_ = false;          // any other unit may be the one that stays
   std::vector<UnitSet> needs_gone_;  // by unit: constraints.before
   std::vector<Move> moves_;

@@ -38,6 +38,14 @@ class UnitSet {
     for (std::size_t k = 0; k < words_.size(); ++k) words_[k] |= other.words_[k];
     return *this;
   }
+  UnitSet& operator&=(const UnitSet& other) {
+    for (std::size_t k = 0; k < words_.size(); ++k) words_[k] &= other.words_[k];
+    return *this;
+  }
+  UnitSet& operator-=(const UnitSet& other) {
+    for (std::size_t k = 0; k < words_.size(); ++k) words_[k] &= ~other.words_[k];
+    return *this;
+  }
   UnitSet operator-(const UnitSet& other) const {
     UnitSet result = *this;
     for (std::size_t k = 0; k < words_.size(); ++k) result.words_[k] &= ~other.words_[k];
@@ -60,6 +68,10 @@ class UnitSet {
  private:
   static std::uint64_t bit(std::size_t u) { return std::uint64_t{1} << (u % 64); }
   std::vector<std::uint64_t> words_;
+};
+
+struct UnitSetHash {
+  std::size_t operator()(const UnitSet& units) const { return units.hash(); }
 };
 
 }  // namespace dismantle::order

@@ -1,4 +1,4 @@
-#include "best_order/order_search.h"
+#include "dismantle/ordering/order_search.h"
 
 #include <algorithm>
 #include <map>
@@ -8,23 +8,38 @@
 #include <unordered_map>
 #include <utility>
 
+#include "dismantle/ordering/target_bound.h"
+
 namespace dismantle::order {
 
 namespace {
-
-constexpr double kSame = 1e-9;  // costs that differ by less are equal
 
 bool is_done(const Task& task, const UnitSet& left) {
   switch (task.end) {
     case End::one_left: return left.size() <= 1;
     case End::exactly: return left == task.goal;
+    case End::target: return !left.contains(task.target) || left.size() <= 1;
   }
   return true;
 }
 
 /// May the variant be a step of the task?
 bool fits(const Task& task, const UnitSet& leaving, const UnitSet& left) {
-  return left.includes(leaving) && !(leaving == left) && (task.end != End::exactly || !leaving.intersects(task.goal));
+  if (!left.includes(leaving) || leaving == left) return false;
+  switch (task.end) {
+    case End::one_left: return true;
+    case End::exactly: return !leaving.intersects(task.goal);
+    case End::target:
+      return task.bound->useful().includes(leaving) && (!leaving.contains(task.target) || leaving.size() == 1);
+  }
+  return false;
+}
+
+/// The units whose variants may be steps of the task.
+UnitSet candidates(const Task& task, const UnitSet& left) {
+  UnitSet units = left;
+  if (task.end == End::target) units &= task.bound->useful();
+  return units;
 }
 
 struct Key {
@@ -57,6 +72,15 @@ double settled(Problem& problem, const Node& node, VariantId next) {
 
 }  // namespace
 
+bool is_feasible(Problem& problem, const Task& task, const std::vector<VariantId>& order) {
+  UnitSet left = task.start;
+  for (const VariantId v : order) {
+    if (!fits(task, problem.leaving(v), left) || !problem.may_leave(v, left)) return false;
+    left -= problem.leaving(v);
+  }
+  return is_done(task, left);
+}
+
 double cost_of(Problem& problem, const Task& task, const std::vector<VariantId>& order) {
   Node state{task.start, task.last, 0, 0};
   for (const VariantId v : order) {
@@ -67,9 +91,11 @@ double cost_of(Problem& problem, const Task& task, const std::vector<VariantId>&
   return state.cost + settled(problem, state, task.next);
 }
 
-/// Each unit that has to leave alone costs at least its cheapest variant. Such units of which no two have a common class need as many changes of the class as there are, less one.
+/// Each unit that has to leave alone costs at least its cheapest variant. Such units of which no two have a common class
+/// need as many changes of the class as there are, less one.
 double lower_bound(Problem& problem, const Task& task, const UnitSet& left, VariantId last) {
   double sum = last == kNone ? 0 : problem.least(last), most = 0;
+  if (task.end == End::target) return sum + (is_done(task, left) ? 0 : task.bound->of(left));
   std::vector<std::uint64_t> classes;
   std::size_t may_stay = task.end == End::one_left ? 1 : 0;
   const double change = problem.change();
@@ -107,6 +133,9 @@ BestFirst best_first(Problem& problem, const Task& task, double known, Effort& e
   BestFirst answer;
   std::vector<Node> nodes{{task.start, task.last, 0, 0}};
   std::unordered_map<Key, double, KeyHash> seen;
+  // States are told apart by their last step if costs depend on it.
+  const auto key_of = [&](const Node& n) { return Key{n.left, problem.remembers() ? n.last : kNone}; };
+  const auto cost_to = [&](const Node& n) { return n.cost + (problem.remembers() ? 0 : settled(problem, n, kNone)); };
   // Lowest bound first; then the longest order, then the one found first.
   using Entry = std::tuple<double, std::size_t, std::size_t, bool>;  // bound, units left, node, is it finished?
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
@@ -122,15 +151,14 @@ BestFirst best_first(Problem& problem, const Task& task, double known, Effort& e
     }
     open.pop();
     const Node node = nodes[at];
-    if (const auto best = seen.find({node.left, node.last}); best != seen.end() && best->second < node.cost - kSame)
-      continue;
+    if (const auto best = seen.find(key_of(node)); best != seen.end() && best->second < cost_to(node) - kSame) continue;
     if (is_done(task, node.left)) {
       const double total = node.cost + settled(problem, node, task.next);
       if (total < known - kSame) open.emplace(total, 0, at, true);
       continue;
     }
     bool stopped = false;
-    node.left.each([&](std::size_t u) {
+    candidates(task, node.left).each([&](std::size_t u) {
       for (const VariantId v : problem.variants_of(u)) {
         if (stopped || !fits(task, problem.leaving(v), node.left) || !problem.may_leave(v, node.left)) continue;
         if (!effort.spend()) {
@@ -140,9 +168,10 @@ BestFirst best_first(Problem& problem, const Task& task, double known, Effort& e
         Node next{node.left - problem.leaving(v), v, node.cost + settled(problem, node, v), at};
         const double bound = std::max(f, next.cost + lower_bound(problem, task, next.left, v));
         if (bound >= known - kSame) continue;
-        const auto [entry, is_new] = seen.try_emplace({next.left, v}, next.cost);
-        if (!is_new && entry->second <= next.cost + kSame) continue;
-        entry->second = next.cost;
+        const double so_far = cost_to(next);
+        const auto [entry, is_new] = seen.try_emplace(key_of(next), so_far);
+        if (!is_new && entry->second <= so_far + kSame) continue;
+        entry->second = so_far;
         open.emplace(bound, next.left.size(), nodes.size(), false);
         nodes.push_back(std::move(next));
       }
@@ -167,7 +196,7 @@ struct Candidate {
 /// The variants that may leave, those first that are like the last one; at most `most`.
 std::vector<VariantId> successors(Problem& problem, const Task& task, const Node& node, std::size_t most) {
   std::vector<VariantId> like, other;
-  node.left.each([&](std::size_t u) {
+  candidates(task, node.left).each([&](std::size_t u) {
     for (const VariantId v : problem.variants_of(u)) {
       std::vector<VariantId>& list = node.last != kNone && problem.alike(node.last, v) ? like : other;
       if (list.size() >= most || !fits(task, problem.leaving(v), node.left) || !problem.may_leave(v, node.left))
@@ -236,7 +265,7 @@ void improve(Problem& problem, const Task& task, Order& order, Effort& effort) {
     const std::size_t step = std::max<std::size_t>(1, std::min(kWindow, order.variants.size()) / 2);
     for (std::size_t first = 0; first < order.variants.size() && effort.left > 0; first += step) {
       const std::size_t n = order.variants.size(), last = std::min(n, first + kWindow);
-      Task part{task.start, End::exactly, {}, task.last, task.next};
+      Task part{.start = task.start, .end = End::exactly, .last = task.last, .next = task.next};
       for (std::size_t k = 0; k < first; ++k) part.start = part.start - problem.leaving(order.variants[k]);
       part.goal = part.start;
       for (std::size_t k = first; k < last; ++k) part.goal = part.goal - problem.leaving(order.variants[k]);

@@ -1,5 +1,5 @@
 // The search over sets of units, compared with all orders of small made-up problems.
-#include "best_order/order_search.h"
+#include "dismantle/ordering/order_search.h"
 
 #include <gtest/gtest.h>
 
@@ -24,6 +24,7 @@ class Random final : public Problem {
   bool leaves_alone(std::size_t unit) const override { return !in_pair_.contains(unit); }
   const UnitSet& leaving(VariantId v) const override { return all_[v].units; }
   bool may_leave(VariantId v, const UnitSet& present) override { return !all_[v].blocking.intersects(present); }
+  const UnitSet& blocking(VariantId v) override { return all_[v].blocking; }
   double cost(VariantId v, const UnitSet& rest, VariantId previous) override {
     double cost = all_[v].cost;
     if (reads_rest_) cost += static_cast<double>((rest.hash() + v) % 3);

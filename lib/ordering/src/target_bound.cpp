@@ -1,0 +1,140 @@
+#include "dismantle/ordering/target_bound.h"
+
+#include <algorithm>
+#include <functional>
+#include <queue>
+#include <utility>
+
+namespace dismantle::order {
+
+TargetBound::TargetBound(Problem& problem, const UnitSet& start, std::size_t target, double known, bool target_may_stay)
+    : problem_(problem),
+      target_(target),
+      target_may_stay_(target_may_stay),
+      variants_(problem.units()),
+      cheapest_(problem.units(), kForbidden),
+      ways_(problem.units()),
+      useful_(problem.units()),
+      nothing_(problem.units()),
+      everything_(problem.units(), true),
+      necessary_(problem.units(), nothing_) {
+  for (std::size_t u = 0; u < problem.units(); ++u)
+    for (const VariantId v : problem.variants_of(u))
+      problem.leaving(v).each([&](std::size_t own) {
+        variants_[own].push_back(v);
+        cheapest_[own] = std::min(cheapest_[own], problem.least(v));
+      });
+  find_useful(start, known);
+}
+
+/// Ways that another one of the unit is not worse than are left out.
+void TargetBound::add_ways(std::size_t unit) {
+  std::vector<Way>& ways = ways_[unit];
+  for (const VariantId v : variants_[unit]) {
+    if (unit == target_ && problem_.leaving(v).size() > 1) continue;
+    Way way{problem_.leaving(v), problem_.blocking(v), problem_.least(v)};
+    const auto is_better = [](const Way& a, const Way& b) {
+      return a.leaving == b.leaving && b.blocking.includes(a.blocking) && a.least <= b.least;
+    };
+    if (std::any_of(ways.begin(), ways.end(), [&](const Way& other) { return is_better(other, way); })) continue;
+    std::erase_if(ways, [&](const Way& other) { return is_better(way, other); });
+    ways.push_back(std::move(way));
+  }
+}
+
+/// A unit that is removed for the sake of the target is the first of a row of units, each of them in the way of the next,
+/// which all leave, one after the other, and the target last.
+void TargetBound::find_useful(const UnitSet& start, double known) {
+  using Entry = std::pair<double, std::size_t>;  // least cost of such a row, unit
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  std::vector<double> best(problem_.units(), kForbidden);
+  const auto reach = [&](std::size_t unit, double cost) {
+    if (!(cost < known - kSame) || !(cost < best[unit] - kSame)) return;
+    best[unit] = cost;
+    open.emplace(cost, unit);
+  };
+  reach(target_, cheapest_[target_]);
+  if (target_may_stay_)
+    start.each([&](std::size_t u) {
+      if (u != target_) reach(u, cheapest_[u]);
+    });
+  while (!open.empty()) {
+    const auto [cost, unit] = open.top();
+    open.pop();
+    if (useful_.contains(unit)) continue;
+    useful_.insert(unit);
+    add_ways(unit);
+    for (const Way& way : ways_[unit]) {
+      way.leaving.each([&, with = cost](std::size_t u) { reach(u, with); });
+      UnitSet in_the_way = way.blocking;
+      in_the_way &= start;
+      in_the_way.each([&, before = cost](std::size_t u) { reach(u, before + cheapest_[u]); });
+    }
+  }
+  if (target_may_stay_) useful_.insert(target_);
+}
+
+/// One step may remove all units that do not leave alone.
+double TargetBound::least_of(const UnitSet& units) const {
+  double sum = 0, together = 0;
+  units.each([&](std::size_t u) {
+    if (problem_.leaves_alone(u))
+      sum += cheapest_[u];
+    else
+      together = std::max(together, cheapest_[u]);
+  });
+  return sum + together;
+}
+
+double TargetBound::least_if_it_stays(const UnitSet& left) const {
+  UnitSet others = left;
+  others.erase(target_);
+  return least_of(others);
+}
+
+/// What must have left before the way is free, as far as is known; false: it never gets free.
+bool TargetBound::needs(const Way& way, const UnitSet& left, UnitSet& units) const {
+  units = nothing_;
+  if (!left.includes(way.leaving)) return false;
+  UnitSet in_the_way = way.blocking;
+  in_the_way &= left;
+  in_the_way.each([&](std::size_t u) { units |= necessary_[u]; });
+  return !units.intersects(way.leaving);
+}
+
+/// From below: what is known after each round is necessary.
+void TargetBound::find_necessary(const UnitSet& left) {
+  left.each([&](std::size_t u) {
+    necessary_[u] = useful_.contains(u) && !ways_[u].empty() ? nothing_ : everything_;
+    necessary_[u].insert(u);
+  });
+  UnitSet active = left, of_way;
+  active &= useful_;
+  constexpr int kRounds = 8;
+  bool changed = true;
+  for (int round = 0; changed && round < kRounds; ++round) {
+    changed = false;
+    active.each([&](std::size_t u) {
+      UnitSet common = everything_;
+      for (const Way& way : ways_[u])
+        if (needs(way, left, of_way)) common &= of_way;
+      common.insert(u);
+      if (common == necessary_[u]) return;
+      necessary_[u] = std::move(common);
+      changed = true;
+    });
+  }
+}
+
+double TargetBound::of(const UnitSet& left) {
+  if (const auto known = known_.find(left); known != known_.end()) return known->second;
+  find_necessary(left);
+  double best = target_may_stay_ ? least_if_it_stays(left) : kForbidden;
+  UnitSet before;
+  for (const Way& way : ways_[target_])
+    if (needs(way, left, before)) best = std::min(best, way.least + least_of(before));
+  known_.emplace(left, best);
+  return best;
+}
+
+}  // namespace dismantle::order

@@ -1,0 +1,135 @@
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "best_order/segment.h"
+
+namespace dismantle::order {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kPreference = 1e-7;  // of a direction, by one degree; far below all costs of checks
+
+}  // namespace
+
+double Segment::preference(VariantId v) const {
+  const Vector3d& d = moves_[variants_[v].move].motion.insertion;
+  if (d.isZero()) return 0;
+  const double along = d.cwiseAbs().maxCoeff(), upwards = d.dot(up(v).value_or(scene_.query.objective.up));
+  constexpr double kAlong = 0.9998, kSteep = 0.7;  // within 1, and 45, degrees
+  return kPreference * ((along > kAlong ? 0 : 4) + (upwards > kSteep ? 2 : upwards > -kSteep ? 1 : 0));
+}
+
+double Segment::preference(const std::vector<VariantId>& order) const {
+  double sum = 0;
+  for (const VariantId v : order) sum += preference(v);
+  return sum;
+}
+
+double Segment::most_preference() const { return 6 * kPreference * static_cast<double>(units()); }
+
+std::size_t Segment::memory(const Item& item, VariantId v) const {
+  if (v == kNone) return 0;
+  const Variant& variant = variants_[v];
+  std::size_t key = 1;
+  key = key * (courses_.size() + 1) + (item.traits.remembers_direction ? 1 + moves_[variant.move].course : 0);
+  key = key * (scene_.ups.size() + 1) + (item.traits.remembers_orientation ? 1 + variant.up : 0);
+  return key * (moves_.size() + 1) + (item.traits.remembers_shape ? 1 + variant.move : 0);
+}
+
+double Segment::cost(VariantId v, const UnitSet& rest, VariantId previous) {
+  double sum = preference(v);
+  for (Item& item : items_) {
+    const bool reads_rest = item.traits.reads_present || item.traits.reads_path;
+    CostKey key{v, memory(item, previous), reads_rest ? rest : UnitSet()};
+    const auto known = item.known.find(key);
+    const double cost = known != item.known.end() ? known->second
+                                                   : item.known.emplace(std::move(key), judge(item, v, rest, previous)).first->second;
+    sum += cost == 0 ? 0 : item.item->weight * cost;
+    if (cost == kForbidden) return kForbidden;
+  }
+  return sum;
+}
+
+double Segment::judge(const Item& item, VariantId v, const UnitSet& rest, VariantId previous) {
+  const Move& move = moves_[variants_[v].move];
+  const auto moving_of = [&](const Move& m) {
+    std::vector<PlacedPart> parts;
+    m.units.each([&](std::size_t u) { parts.insert(parts.end(), parts_[u].begin(), parts_[u].end()); });
+    return parts;
+  };
+  const Vector3d& drawn = scene_.query.objective.up;
+  const std::vector<PlacedPart> moving = moving_of(move);
+  Trace insertion;
+  if (item.traits.reads_path) {
+    if (move.motion.direction) {
+      const Vector3d out = length_out(move, rest) * scene_.directions.all[*move.motion.direction];
+      insertion.resize(2);
+      for (const PlacedPart& p : moving) {
+        insertion[0].push_back({p.pose.t + out, p.pose.q});
+        insertion[1].push_back(p.pose);
+      }
+    } else {
+      insertion.assign(move.motion.planned->attempt->path().rbegin(), move.motion.planned->attempt->path().rend());
+    }
+  }
+  static const std::vector<PlacedPart> nothing;
+  const StepQuestion question{scene_.query.assembly,
+                              moving,
+                              item.traits.reads_present ? present(rest) : nothing,
+                              move.motion.insertion,
+                              insertion.empty() ? nullptr : &insertion,
+                              scene_.ups[variants_[v].up].value_or(drawn),
+                              nullptr};
+  try {
+    StepVerdict verdict;
+    if (previous == kNone) {
+      verdict = item.item->check->estimate(question, scene_.context);
+    } else {
+      const Move& earlier = moves_[variants_[previous].move];
+      const std::vector<PlacedPart> put_in = moving_of(earlier);
+      const StepQuestion before{scene_.query.assembly,    put_in,  nothing,
+                                earlier.motion.insertion, nullptr, scene_.ups[variants_[previous].up].value_or(drawn),
+                                nullptr};
+      StepQuestion with = question;
+      with.previous = &before;
+      verdict = item.item->check->estimate(with, scene_.context);
+    }
+    if (!(verdict.cost >= 0)) throw CheckFailed("its cost is not a number from 0 on");
+    return item.item->require && !verdict.allowed ? kForbidden : verdict.cost;
+  } catch (const std::exception& e) {
+    throw CheckFailed("'" + item.item->id + "': " + e.what());
+  }
+}
+
+const std::vector<PlacedPart>& Segment::present(const UnitSet& rest) {
+  if (!(rest == present_of_)) {
+    present_of_ = rest;
+    present_.clear();
+    rest.each([&](std::size_t u) { present_.insert(present_.end(), parts_[u].begin(), parts_[u].end()); });
+    std::sort(present_.begin(), present_.end(), [](const PlacedPart& a, const PlacedPart& b) { return a.part < b.part; });
+  }
+  return present_;
+}
+
+/// By boxes along the direction: an estimate from above of the length of the path in the plan.
+double Segment::length_out(const Move& move, const UnitSet& rest) {
+  const std::size_t d = *move.motion.direction;
+  const Vector3d& axis = scene_.directions.all[d];
+  double own = std::numeric_limits<double>::infinity(), others = -own;
+  const auto extent = [&](const PlacedPart& p) {
+    const auto [lo, hi] = relations_->extent(p.part, d, orientations_.number_of(p.pose.q));
+    return std::pair(lo + p.pose.t.dot(axis), hi + p.pose.t.dot(axis));
+  };
+  move.units.each([&](std::size_t u) {
+    for (const PlacedPart& p : parts_[u]) own = std::min(own, extent(p).first);
+  });
+  rest.each([&](std::size_t u) {
+    for (const PlacedPart& p : parts_[u]) others = std::max(others, extent(p).second);
+  });
+  return std::max(0.0, others - own);
+}
+
+}  // namespace dismantle::order
