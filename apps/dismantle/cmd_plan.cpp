@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -243,14 +242,8 @@ void add_plan(CLI::App& app, Action& action) {
       ->excludes(resume);
   command->add_option("--part", options->part, "Plan just this part's path, all other parts fixed")
       ->option_text("NAME");
-  options->config
-      .add_key(*command, "--components", "components.level", "keep|open",
-               "Put in a product of several bodies as one, or open all of them")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, std::string>{{"keep", "component"}, {"open", "solid"}})
-                      .description(""));
-  options->config.add_list_key(*command, "--open", "components.apart", "NAME",
-                               "Plan the bodies of this product one by one; may be repeated");
-  options->config.add_key(*command, "--target", "constraints.target", "NAME", "Stop when this part is out");
+  options->config.add_components(*command);
+  options->config.add_key(*command, "--target", "constraints.target", "NAME", "Take this part out, in as few steps as possible");
   options->config.add_key(*command, "--seed", "run.seed", "N", "Seed");
   options->config.add_key(*command, "--path-timeout", "run.path_timeout", "S", "Seconds for one attempt, 0 = no limit");
   options->config.add_key(*command, "--timeout", "run.timeout", "S", "Seconds for the whole run, 0 = no limit");

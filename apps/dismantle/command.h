@@ -24,6 +24,7 @@ void add_stability(CLI::App& app, Action& action);
 void add_prepare(CLI::App& app, Action& action);
 void add_verify(CLI::App& app, Action& action);
 void add_explain(CLI::App& app, Action& action);
+void add_access(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
 void add_diff(CLI::App& app, Action& action);
 void add_edit(CLI::App& app, Action& action);

@@ -179,6 +179,7 @@ int main(int argc, char** argv) {
   add_prepare(app, action);
   add_verify(app, action);
   add_explain(app, action);
+  add_access(app, action);
   add_replay(app, action);
   add_compare(app, action);
   add_diff(app, action);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <map>
 #include <memory>
 #include <system_error>
 
@@ -35,6 +36,15 @@ void ConfigFlags::add_list_key(CLI::App& command, const std::string& flag, const
       ->option_text(value_name)
       ->take_all()
       ->allow_extra_args(false);
+}
+
+void ConfigFlags::add_components(CLI::App& command) {
+  add_key(command, "--components", "components.level", "keep|open",
+          "Put in a product of several bodies as one, or open all of them")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, std::string>{{"keep", "component"}, {"open", "solid"}})
+                      .description(""));
+  add_list_key(command, "--open", "components.apart", "NAME",
+               "Plan the bodies of this product one by one; may be repeated");
 }
 
 ConfigSource ConfigFlags::source() const {

@@ -25,6 +25,8 @@ class ConfigFlags {
   /// As add_key; each use of the flag adds its value to the list of `key`.
   void add_list_key(CLI::App& command, const std::string& flag, const std::string& key, const std::string& value_name,
                     const std::string& help);
+  /// --components and --open.
+  void add_components(CLI::App& command);
   ConfigSource source() const;
 
  private:

@@ -66,6 +66,7 @@ class Search {
     Bounds bounds;
     const double one_step = stays ? 0 : cheapest();
     bounds.least = bounds.floor = one_step;
+    if (!stays) leave_at_once(one_step);
     // A cheap order needs few units: what could be in their way is found out step by step.
     bool found_one = false;
     for (double limit = one_step; limit < result_.best.cost - kSame && !found_one;) {
@@ -84,6 +85,14 @@ class Search {
     bounds.bound = bounds.least;
     if (found_one && result_.best.cost > bounds.least + kSame) search_all(stays, bounds);
     return bounds;
+  }
+
+  /// Nothing is cheaper than one step that costs no more than the target's cheapest one.
+  void leave_at_once(double one_step) {
+    for (const VariantId v : problem_.variants_of(task_.target))
+      if (problem_.leaving(v).size() == 1 && problem_.least(v) <= one_step + kSame &&
+          problem_.may_leave(v, task_.start))
+        take({v});
   }
 
   /// By all costs.

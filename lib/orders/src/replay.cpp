@@ -6,32 +6,13 @@
 #include <set>
 #include <utility>
 
-#include "dismantle/geometry/face_axes.h"
 #include "dismantle/part_set.h"
 #include "dismantle/verification/motion_depth.h"
+#include "own_axes.h"
 #include "reference_groups.h"
 
 namespace dismantle {
 namespace {
-
-constexpr std::size_t kOwnAxes = 3;  // of the faces of an item, beside the coordinate axes
-constexpr double kSameAxis = 1 - 1e-6;  // cosine: a straight path that deviates more rubs at a long fit
-
-/// Unit vectors without their opposites: the coordinate axes, and those of the largest faces of a single part.
-std::vector<geometry::FaceAxis> axes_of(const ReplayedItem& item, const Assembly& assembly) {
-  std::vector<geometry::FaceAxis> axes;
-  for (int k = 0; k < 3; ++k) axes.push_back({Eigen::Vector3d::Unit(k), 0});
-  if (item.parts.size() > 1) return axes;
-  const Mesh& mesh = *assembly.parts[item.parts.front()].mesh;
-  std::vector<geometry::FaceAxis> faces;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (const Eigen::Vector3d area = geometry::area_vector(mesh, t); area.norm() > 0)
-      faces.push_back({area.normalized(), area.norm()});
-  faces = geometry::rounded_axes(faces);
-  geometry::sort_by_area(faces, kOwnAxes);
-  for (const geometry::FaceAxis& face : faces) geometry::add_face(axes, face, kSameAxis);
-  return axes;
-}
 
 std::vector<PlacedPart> as_assembled(const std::vector<PartId>& parts) {
   std::vector<PlacedPart> placed;
@@ -116,9 +97,9 @@ class Replay {
 
   bool leaves(ReplayedItem& item, const std::vector<PartId>& rest) const {
     const std::vector<PlacedPart> fixed = as_assembled(rest);
-    for (const geometry::FaceAxis& face : axes_of(item, assembly_))
+    for (const Eigen::Vector3d& axis : own_axes(item.parts, assembly_))
       for (const double sign : {1.0, -1.0}) {
-        const Eigen::Vector3d out = sign * face.axis;
+        const Eigen::Vector3d out = sign * axis;
         if (!verifier_.check_motion(item.parts, fixed, straight(item, out), context_).valid) continue;
         item.direction = -out;
         return true;
@@ -129,9 +110,9 @@ class Replay {
   /// Where it cuts in least.
   void explain(ReplayedItem& item, const std::vector<PartId>& rest) {
     double least = std::numeric_limits<double>::infinity();
-    for (const geometry::FaceAxis& face : axes_of(item, assembly_))
+    for (const Eigen::Vector3d& axis : own_axes(item.parts, assembly_))
       for (const double sign : {1.0, -1.0}) {
-        const Eigen::Vector3d out = sign * face.axis;
+        const Eigen::Vector3d out = sign * axis;
         MotionDepthOptions options;
         options.stop_above = least;
         const auto found = meter_.deepest(item.parts, as_assembled(rest), straight(item, out), options, context_);

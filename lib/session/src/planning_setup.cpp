@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dismantle/errors.h"
+#include "dismantle/session/objective.h"
 
 namespace dismantle {
 
@@ -33,7 +34,7 @@ PluginChoice with_last_resort(const RunConfig& config, const Registry& registry)
 }
 
 /// With a target, steps are counted: one more costs more than other checks usually say of a step.
-std::vector<PluginChoice> objective_of(const RunConfig& config, const Registry& registry) {
+std::vector<PluginChoice> checks_of(const RunConfig& config, const Registry& registry) {
   std::vector<PluginChoice> objective = config.objective;
   const auto counts = [](const PluginChoice& choice) { return choice.type == "steps"; };
   constexpr double kWeight = 1000;
@@ -45,13 +46,24 @@ std::vector<PluginChoice> objective_of(const RunConfig& config, const Registry& 
 
 /// The same in a `best_order`, if there is an objective.
 PluginChoice with_best_order(const RunConfig& config, const Registry& registry, PluginChoice sequence) {
-  if (!config.run.best_order || objective_of(config, registry).empty() || names(sequence, "best_order") ||
+  if (!config.run.best_order || checks_of(config, registry).empty() || names(sequence, "best_order") ||
       registry.lookup(PluginKind::sequence_planner, "best_order") == nullptr)
     return sequence;
   return {"best_order", {{"of", std::move(sequence)}}, {}};
 }
 
 }  // namespace
+
+Objective objective_of(const RunConfig& config, const Registry& registry) {
+  Objective out;
+  out.up = config.layout.up_axis();
+  for (const PluginChoice& choice : checks_of(config, registry)) {
+    const ObjectiveOptions options = Schema<ObjectiveOptions>().bind(choice.options);
+    out.items.push_back({choice.type, registry.create<StepCheck>(choice.type, choice.parameters), options.weight,
+                         options.require, choice.parameters});
+  }
+  return out;
+}
 
 PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registry) {
   PlanningSetup out;
@@ -71,12 +83,7 @@ PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registr
   }
   for (const PluginChoice& choice : config.provers)
     out.provers.push_back({choice.type, registry.create<ImmobilityProver>(choice.type, choice.parameters)});
-  out.objective.up = config.layout.up_axis();
-  for (const PluginChoice& choice : objective_of(config, registry)) {
-    const ObjectiveOptions options = Schema<ObjectiveOptions>().bind(choice.options);
-    out.objective.items.push_back({choice.type, registry.create<StepCheck>(choice.type, choice.parameters),
-                                   options.weight, options.require, choice.parameters});
-  }
+  out.objective = objective_of(config, registry);
   return out;
 }
 
