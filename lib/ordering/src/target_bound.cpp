@@ -31,8 +31,8 @@ TargetBound::TargetBound(Problem& problem, const UnitSet& start, std::size_t tar
 void TargetBound::add_ways(std::size_t unit) {
   std::vector<Way>& ways = ways_[unit];
   for (const VariantId v : variants_[unit]) {
-    if (unit == target_ && problem_.leaving(v).size() > 1) continue;
-    Way way{problem_.leaving(v), problem_.blocking(v), problem_.least(v)};
+    if (problem_.leaving(v).contains(target_) && problem_.leaving(v).size() > 1) continue;
+    Way way{problem_.leaving(v), problem_.blocking(v), problem_.least(v), v};
     const auto is_better = [](const Way& a, const Way& b) {
       return a.leaving == b.leaving && b.blocking.includes(a.blocking) && a.least <= b.least;
     };
@@ -72,6 +72,81 @@ void TargetBound::find_useful(const UnitSet& start, double known) {
     }
   }
   if (target_may_stay_) useful_.insert(target_);
+}
+
+/// For each unit the way that costs least with all that has to leave before, each of these counted by itself, as far as it
+/// does not leave in any case; in the order in which they can leave. The last one is the target's, or there is none.
+std::vector<const TargetBound::Way*> TargetBound::supported(const UnitSet& left, const UnitSet& in_any_case) const {
+  constexpr double kShare = 1e-3;  // of the cost of what leaves in any case
+  struct Open {
+    const Way* way;
+    std::size_t waits = 0;  // for so many units
+    double before = 0;
+  };
+  std::vector<Open> ways;
+  std::vector<std::vector<std::size_t>> waiting(problem_.units());
+  using Entry = std::pair<double, std::size_t>;  // cost with all before, way
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> ready;
+  (left - (left - useful_)).each([&](std::size_t u) {
+    for (const Way& way : ways_[u]) {
+      std::size_t first = 0;
+      while (!way.leaving.contains(first)) ++first;
+      if (first != u || !left.includes(way.leaving)) continue;  // once for all units that leave
+      UnitSet in_the_way = way.blocking;
+      in_the_way &= left;
+      ways.push_back({&way, in_the_way.size(), 0});
+      in_the_way.each([&](std::size_t b) { waiting[b].push_back(ways.size() - 1); });
+      if (ways.back().waits == 0) ready.emplace(way.least, ways.size() - 1);
+    }
+  });
+  std::vector<const Way*> order;
+  UnitSet gone = nothing_;
+  while (!ready.empty()) {
+    const auto [cost, at] = ready.top();
+    ready.pop();
+    const Way& way = *ways[at].way;
+    if (gone.intersects(way.leaving)) continue;
+    order.push_back(&way);
+    if (way.leaving.contains(target_)) return order;
+    const double counted = in_any_case.includes(way.leaving) ? kShare * cost : cost;
+    way.leaving.each([&](std::size_t u) {
+      gone.insert(u);
+      for (const std::size_t other : waiting[u]) {
+        Open& open = ways[other];
+        open.before += counted;
+        if (--open.waits == 0) ready.emplace(open.way->least + open.before, other);
+      }
+    });
+  }
+  return {};
+}
+
+std::vector<VariantId> TargetBound::some_order(const UnitSet& left) const {
+  std::vector<VariantId> best;
+  double least = kForbidden;
+  UnitSet in_any_case = nothing_;
+  constexpr int kRounds = 6;  // what one round removes costs little in the next one
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<const Way*> order = supported(left, in_any_case);
+    if (order.empty()) break;
+    UnitSet needed = nothing_;
+    needed.insert(target_);
+    std::vector<VariantId> variants;
+    double cost = 0;
+    for (auto way = order.rbegin(); way != order.rend(); ++way) {
+      if (!needed.intersects((*way)->leaving)) continue;
+      UnitSet before = (*way)->blocking;
+      before &= left;
+      needed |= before;
+      variants.push_back((*way)->variant);
+      cost += (*way)->least;
+    }
+    if (!(cost < least - kSame)) break;
+    least = cost;
+    best.assign(variants.rbegin(), variants.rend());
+    in_any_case = needed;
+  }
+  return best;
 }
 
 /// One step may remove all units that do not leave alone.

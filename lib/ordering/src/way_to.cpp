@@ -73,6 +73,10 @@ class Search {
       limit = std::min(limit > 0 ? 2 * limit : kForbidden, result_.best.cost);
       TargetBound lower(alone_, task_.start, task_.target, limit, stays);
       task_.bound = &lower;
+      if (const std::vector<VariantId> some = lower.some_order(task_.start); is_feasible(problem_, task_, some)) {
+        take(some);
+        limit = std::min(limit, result_.best.cost);
+      }
       Effort own = share();
       const BestFirst found = best_first(alone_, task_, limit, own);
       give_back(own);

@@ -145,6 +145,25 @@ TEST(Target, ACheaperOrderThanTheKnownOneIsFoundOrThereIsNone) {
   }
 }
 
+TEST(Target, SomeOrderIsFoundWithoutASearch) {
+  unsigned possible = 0, found = 0, cheapest_ones = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Random problem(3 + seed % 5, 25000 + seed, false);
+    const UnitSet all(problem.units(), true);
+    const double truth = cheapest(problem, all, 0, kNone);
+    Question q(problem, kForbidden, true);
+    const std::vector<VariantId> some = q.bound.some_order(all);
+    possible += truth < kForbidden ? 1 : 0;
+    if (some.empty() || !is_feasible(problem, q.task, some)) continue;  // pairs may be in each other's way
+    ++found;
+    const double cost = cost_of(problem, q.task, some);
+    EXPECT_GE(cost, truth - 1e-9) << seed;
+    cheapest_ones += cost < truth + 1e-9 ? 1 : 0;
+  }
+  EXPECT_GT(10 * found, 7 * possible);
+  EXPECT_GT(10 * cheapest_ones, 8 * found);
+}
+
 /// Step by step, with the bounds that it states.
 TEST(Target, TheWayToItIsTheCheapestOfAllOrders) {
   unsigned possible = 0, poor_ones = 0;

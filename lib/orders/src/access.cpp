@@ -13,7 +13,7 @@ namespace dismantle {
 
 namespace {
 
-constexpr std::uint64_t kEffort = 20000;  // judged steps for each part
+constexpr std::uint64_t kEffort = 6000;  // judged steps for each part
 
 Eigen::Vector3d last_direction(const Trace& path) {
   if (path.size() < 2) return Eigen::Vector3d::Zero();

@@ -21,6 +21,9 @@ class TargetBound {
   const UnitSet& useful() const { return useful_; }
   /// No order from here on that costs less than `known` in all costs less than this; kForbidden: there is none.
   double of(const UnitSet& left);
+  /// Some order of useful units, most likely a cheap one; empty: none was found. What is not known to be in the way is
+  /// taken to be free.
+  std::vector<VariantId> some_order(const UnitSet& left) const;
   /// No order costs less in which the target stays and everything else leaves.
   double least_if_it_stays(const UnitSet& left) const;
 
@@ -29,10 +32,12 @@ class TargetBound {
   struct Way {
     UnitSet leaving, blocking;
     double least = 0;
+    VariantId variant = kNone;
   };
   void add_ways(std::size_t unit);
   void find_useful(const UnitSet& start, double known);
   double least_of(const UnitSet& units) const;
+  std::vector<const Way*> supported(const UnitSet& left, const UnitSet& in_any_case) const;
   void find_necessary(const UnitSet& left);
   bool needs(const Way& way, const UnitSet& left, UnitSet& units) const;
 
