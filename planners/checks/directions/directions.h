@@ -8,11 +8,13 @@ namespace dismantle::checks {
 
 struct DirectionsParams {
   double angle = 0.1;
+  double preference = 0;
   static void describe(Schema<DirectionsParams>& s);
 };
 
-/// Costs 1 when parts are put in along another direction than in the operation before. A rotation in place has no
-/// direction, and costs nothing.
+/// Costs 1 when parts are put in along another direction than in the operation before; and `preference` times 1 along
+/// no main axis, 2/3 from below, 1/3 from the side, 0 from above. A rotation in place has no direction, and costs
+/// nothing.
 class Directions final : public StepCheck {
  public:
   explicit Directions(const DirectionsParams& params = {}) : params_(params) {}
