@@ -3,16 +3,38 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "dismantle/geometry/congruent_parts.h"
 
 namespace dismantle::checks {
+
+namespace {
+
+constexpr double kSameWay = 0.995;  // cosine of 6 degrees, as the check `directions`
+
+}  // namespace
+
+void IdenticalPartsParams::describe(Schema<IdenticalPartsParams>& s) {
+  s.add("another_way", &IdenticalPartsParams::another_way,
+        {.unit = "1",
+         .min = 0,
+         .doc = "Cost of an equal part that goes in along another direction than the one before."});
+}
 
 std::vector<std::size_t> IdenticalParts::Shapes::of(std::span<const PlacedPart> parts) const {
   std::vector<std::size_t> all;
   for (const PlacedPart& p : parts) all.push_back(first.at(p.part));
   std::sort(all.begin(), all.end());
   return all;
+}
+
+Eigen::Vector3d IdenticalParts::Shapes::seen_from(std::span<const PlacedPart> parts,
+                                                  const Eigen::Vector3d& direction) const {
+  const auto least = std::min_element(parts.begin(), parts.end(), [&](const PlacedPart& a, const PlacedPart& b) {
+    return std::pair(first.at(a.part), a.part) < std::pair(first.at(b.part), b.part);
+  });
+  return (least->pose.q * pose.at(least->part).q).conjugate() * direction;
 }
 
 std::shared_ptr<const IdenticalParts::Shapes> IdenticalParts::shapes_of(const Assembly& assembly) const {
@@ -23,7 +45,10 @@ std::shared_ptr<const IdenticalParts::Shapes> IdenticalParts::shapes_of(const As
     return known_;
   auto shapes = std::make_shared<Shapes>();
   for (const Part& part : assembly.parts) shapes->meshes.push_back(part.mesh);
-  for (const auto& placement : geometry::find_congruent(assembly.parts)) shapes->first.push_back(placement.original);
+  for (const auto& placement : geometry::find_congruent(assembly.parts)) {
+    shapes->first.push_back(placement.original);
+    shapes->pose.push_back(placement.pose);
+  }
   return known_ = std::move(shapes);
 }
 
@@ -32,11 +57,18 @@ StepVerdict IdenticalParts::judge(const StepQuestion& question, const RunContext
   if (question.previous == nullptr || question.moving.empty()) return verdict;
   const std::shared_ptr<const Shapes> shapes = shapes_of(question.assembly);
   const std::vector<std::size_t> now = shapes->of(question.moving), present = shapes->of(question.present);
-  if (now == shapes->of(question.previous->moving) ||
-      !std::includes(present.begin(), present.end(), now.begin(), now.end()))
-    return verdict;
-  verdict.cost = 1;
   const std::string& name = question.assembly.parts[question.moving.front().part].name;
+  if (now == shapes->of(question.previous->moving)) {
+    const Eigen::Vector3d &way = question.direction, &before = question.previous->direction;
+    if (params_.another_way == 0 || way.isZero() || before.isZero() || way.dot(before) > kSameWay ||
+        shapes->seen_from(question.moving, way).dot(shapes->seen_from(question.previous->moving, before)) > kSameWay)
+      return verdict;
+    verdict.cost = params_.another_way;
+    verdict.reason = fmt::format("'{}' goes in along another direction than the equal part before it", name);
+    return verdict;
+  }
+  if (!std::includes(present.begin(), present.end(), now.begin(), now.end())) return verdict;
+  verdict.cost = 1;
   verdict.reason =
       question.moving.size() == 1
           ? fmt::format("'{}' is not put in directly after the equal part that is in place", name)

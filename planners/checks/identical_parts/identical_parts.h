@@ -8,15 +8,27 @@
 #include <vector>
 
 #include "dismantle/mesh.h"
+#include "dismantle/parameters.h"
+#include "dismantle/pose.h"
 #include "dismantle/step_check.h"
 
 namespace dismantle::checks {
 
+struct IdenticalPartsParams {
+  double another_way = 0;
+  static void describe(Schema<IdenticalPartsParams>& s);
+};
+
 /// Costs 1 when an equal part, or group of parts, is in place already and the operation before put in something else.
-/// Over a whole plan this counts how often a series of equal parts is interrupted.
+/// Over a whole plan this counts how often a series of equal parts is interrupted. Costs
+/// `another_way` when the operation before put in an equal part, and along another direction: neither the same in the
+/// world, nor the same as seen from the parts.
 class IdenticalParts final : public StepCheck {
  public:
-  StepCheckTraits traits() const noexcept override { return {.remembers_shape = true, .reads_path = false}; }
+  explicit IdenticalParts(const IdenticalPartsParams& params = {}) : params_(params) {}
+  StepCheckTraits traits() const noexcept override {
+    return {.remembers_direction = params_.another_way > 0, .remembers_shape = true, .reads_path = false};
+  }
   StepVerdict judge(const StepQuestion& question, const RunContext& context) const override;
 
  private:
@@ -24,11 +36,15 @@ class IdenticalParts final : public StepCheck {
   struct Shapes {
     std::vector<std::shared_ptr<const Mesh>> meshes;
     std::vector<std::size_t> first;
+    std::vector<Pose> pose;  // takes the first part of the shape to this part
     /// Of these parts, sorted.
     std::vector<std::size_t> of(std::span<const PlacedPart> parts) const;
+    /// The direction as seen from the part whose shape comes first.
+    Eigen::Vector3d seen_from(std::span<const PlacedPart> parts, const Eigen::Vector3d& direction) const;
   };
   std::shared_ptr<const Shapes> shapes_of(const Assembly& assembly) const;
 
+  IdenticalPartsParams params_;
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const Shapes> known_;  // of the assembly that was asked about last
 };

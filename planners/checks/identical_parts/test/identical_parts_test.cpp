@@ -113,5 +113,39 @@ TEST(IdenticalParts, GroupsAreComparedAsSetsOfShapes) {
   EXPECT_EQ(IdenticalParts().judge(question, RunContext{}).cost, 0);
 }
 
+// Law: with `another_way`, the second of two equal parts costs it exactly when its direction is neither that of the
+// first in the world nor the same as seen from the parts; without it, nothing.
+TEST(IdenticalParts, EqualPartsGoInTheSameWay) {
+  Rng rng(8);
+  for (int round = 0; round < 100; ++round) {
+    const Pose turn{{rng.normal(), rng.normal(), rng.normal()}, rotation_from_vector({0.5 + rng.uniform(), 0.5, 0.7})};
+    Mesh block = shapes::box({0, 0, 0}, {1, 2, 3});
+    const Assembly assembly =
+        shapes::assembly_of({shapes::box({0, 0, 0}, {5, 5, 5}), block, shapes::moved(block, turn)});
+    const std::vector<PlacedPart> all{{0, Pose{}}, {1, Pose{}}, {2, Pose{}}};
+    const std::span<const PlacedPart> placed(all);
+    const Eigen::Vector3d first = Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal()).normalized();
+    const StepQuestion previous{assembly, placed.subspan(1, 1), placed.first(1), first};
+    const auto cost = [&](const Eigen::Vector3d& direction, double another_way) {
+      StepQuestion question{assembly, placed.subspan(2, 1), placed.first(2), direction};
+      question.previous = &previous;
+      const StepVerdict v = IdenticalParts({another_way}).judge(question, RunContext{});
+      EXPECT_EQ(v.reason.empty(), v.cost == 0);
+      return v.cost;
+    };
+    EXPECT_EQ(cost(first, 0.25), 0);
+    EXPECT_EQ(cost(turn.q * first, 0.25), 0);
+    EXPECT_EQ(cost(first.unitOrthogonal(), 0), 0);
+    const Eigen::Vector3d other = first.cross(turn.q * first);
+    if (other.norm() < 0.3) continue;
+    EXPECT_EQ(cost(other.normalized(), 0.25), 0.25);
+  }
+}
+
+TEST(IdenticalParts, RemembersTheDirectionOnlyIfItCounts) {
+  EXPECT_FALSE(IdenticalParts().traits().remembers_direction);
+  EXPECT_TRUE(IdenticalParts({.another_way = 1}).traits().remembers_direction);
+}
+
 }  // namespace
 }  // namespace dismantle::checks
