@@ -11,7 +11,7 @@ set(DISMANTLE_SHIPPED_PLUGINS
   planners/sequence/state_based
   planners/transfer/rrt_connect
   planners/checks/directions planners/checks/gravity planners/checks/identical_parts planners/checks/path_length
-  planners/checks/reorientations planners/checks/steps planners/checks/tool_access planners/checks/base planners/checks/covers planners/checks/travel
+  planners/checks/reorientations planners/checks/steps planners/checks/tool_access planners/checks/base planners/checks/covers planners/checks/travel planners/checks/time
   planners/immobility/configuration_cells planners/immobility/disc planners/immobility/enclosed_ball planners/immobility/hook
   planners/immobility/interlock_lp planners/immobility/overlap_lock planners/immobility/ring planners/immobility/spool planners/immobility/translations)
 set(DISMANTLE_WITHOUT "" CACHE STRING "Plugin folders to leave out as if they were deleted, separated by semicolons")
