@@ -10,8 +10,8 @@ set(DISMANTLE_SHIPPED_PLUGINS
   planners/sequence/best_order planners/sequence/blocking planners/sequence/chain planners/sequence/least_cut planners/sequence/mcts planners/sequence/ndbg planners/sequence/progressive planners/sequence/queue planners/sequence/random
   planners/sequence/state_based
   planners/transfer/rrt_connect
-  planners/checks/directions planners/checks/gravity planners/checks/identical_parts planners/checks/path_length
-  planners/checks/reorientations planners/checks/steps planners/checks/tool_access planners/checks/base planners/checks/covers planners/checks/travel planners/checks/time
+  planners/checks/base planners/checks/covers planners/checks/directions planners/checks/gravity planners/checks/identical_parts planners/checks/path_length
+  planners/checks/reorientations planners/checks/steps planners/checks/time planners/checks/tool_access planners/checks/travel
   planners/immobility/configuration_cells planners/immobility/disc planners/immobility/enclosed_ball planners/immobility/hook
   planners/immobility/interlock_lp planners/immobility/overlap_lock planners/immobility/ring planners/immobility/spool planners/immobility/translations)
 set(DISMANTLE_WITHOUT "" CACHE STRING "Plugin folders to leave out as if they were deleted, separated by semicolons")
