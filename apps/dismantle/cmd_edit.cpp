@@ -11,6 +11,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/orders/order.h"
 #include "dismantle/plan_files.h"
+#include "dismantle/plan_io/step_numbers.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/plan_report.h"
@@ -44,7 +45,7 @@ class StepNumbers {
       throw Error(fmt::format("there is no step {}: the plan has {}", number, steps()));
     return disassembly_ ? number - 1 : steps() - number;
   }
-  std::size_t number(std::size_t index) const { return disassembly_ ? index + 1 : steps() - index; }
+  std::size_t number(std::size_t index) const { return step_number(plan_, index, disassembly_); }
   bool disassembly() const { return disassembly_; }
   std::string name(std::size_t index) const {
     std::string parts;

@@ -11,6 +11,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/motion_words.h"
+#include "dismantle/plan_io/step_numbers.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/text_columns.h"
 #include "dismantle/plan_io/verdicts.h"
@@ -49,10 +50,9 @@ class ContentWriter {
     if (content_.chapters.empty())
       throw InputError(plan_.assembly.source, "the plan has no steps, so there is nothing to instruct");
     write_title();
-    std::size_t count = 0;
-    for (const BookChapter& chapter : content_.chapters) count += chapter.steps.size();
     for (const BookChapter& chapter : content_.chapters)
-      for (std::size_t s = 0; s < chapter.steps.size(); ++s) add_page(chapter, s, count);
+      for (std::size_t s = 0; s < chapter.steps.size(); ++s) add_page(chapter, s);
+    std::ranges::sort(content_.pages, {}, &BookPage::number);
     return std::move(content_);
   }
 
@@ -98,12 +98,8 @@ class ContentWriter {
                                figure_text(unit_.factor * plan_.verified_max_penetration / a.scale), unit_.name));
     if (!plan_.objective.empty()) content_.facts.emplace_back("judged", objective_text(plan_));
     content_.facts.emplace_back("made by", plan_.generator_name + " " + plan_.generator_version);
-    std::string forced;
-    for (const PlanStep& step : plan_.disassembly)
-      if (step.forced && step.forced->accepted.empty()) forced += fmt::format("{}{}", forced.empty() ? "" : ", ", step.step);
-    if (!forced.empty())
-      content_.warnings.push_back(
-          fmt::format("Not verified: in these steps of the plan parts cut into others: {}.", forced));
+    if (const std::string forced = forced_numbers(); !forced.empty())
+      content_.warnings.push_back(fmt::format("Not verified: in these steps parts cut into others: {}.", forced));
     if (plan_.status == PlanStatus::partial)
       content_.warnings.push_back(
           fmt::format("The plan is partial: {} are still together with others at its end ({}). What the plan does not "
@@ -116,6 +112,16 @@ class ContentWriter {
       for (const PlanExcluded& e : a.excluded) names.push_back(e.name);
       content_.warnings.push_back(fmt::format("Left out of the plan, and not in this book: {}.", listed(names)));
     }
+  }
+
+  /// "2, 5": the steps that are forced and not accepted.
+  std::string forced_numbers() const {
+    std::vector<std::size_t> numbers;
+    for (std::size_t s = 0; s < plan_.disassembly.size(); ++s)
+      if (const auto& forced = plan_.disassembly[s].forced; forced && forced->accepted.empty())
+        numbers.push_back(step_number(plan_, s, options_.disassembly));
+    std::ranges::sort(numbers);
+    return fmt::format("{}", fmt::join(numbers, ", "));
   }
 
   std::string length_of(double input_units) const {
@@ -157,14 +163,14 @@ class ContentWriter {
     return nullptr;
   }
 
-  void add_page(const BookChapter& chapter, std::size_t index, std::size_t count) {
+  void add_page(const BookChapter& chapter, std::size_t index) {
     const BookStep& step = chapter.steps[index];
     BookPage page;
     page.step = &step;
     page.chapter = chapter_name(chapter);
     page.chapter_begins = index == 0;
-    page.number = content_.pages.size() + 1;
-    page.count = count;
+    page.number = step.number;
+    page.count = plan_.disassembly.size();
     page.verb = step.shifts_only       ? (options_.disassembly ? "Move aside" : "Move back")
                 : options_.disassembly ? "Take out"
                                        : "Put in";
@@ -198,20 +204,21 @@ class ContentWriter {
     if (index == 0 && !options_.disassembly) page.facts.emplace_back("start with", names_of(chapter.base));
     if (index == 0 && options_.disassembly && chapter.letter >= 0)
       page.facts.emplace_back("of", names_of(chapter.parts));
-    for (const PlanStep& s : plan_.disassembly) {
-      if (s.step != step.plan_step) continue;
-      if (s.forced && s.forced->accepted.empty())
-        page.warning = fmt::format("Not verified: {}.", forced_text(plan_, *s.forced));
-      else if (s.forced)
-        page.facts.emplace_back(s.forced->accepted, forced_text(plan_, *s.forced));
-      if (!s.contacts.empty()) page.facts.emplace_back("touches", text::joined(s.contacts));
-      for (const PlanVerdict& v : s.checks)
-        for (const StepNote& note : v.notes) page.facts.emplace_back("note", note.text);
-      for (const std::string& line : cost_lines(s.checks)) page.facts.emplace_back("check", line);
-      page.facts.emplace_back("step of the plan",
-                              fmt::format("{}{}", s.step, options_.disassembly ? "" : ", backwards"));
-    }
+    add_plan_facts(plan_.disassembly[step.plan_step], page);
     content_.pages.push_back(std::move(page));
+  }
+
+  /// What the plan says about the step.
+  void add_plan_facts(const PlanStep& step, BookPage& page) const {
+    if (step.forced && step.forced->accepted.empty())
+      page.warning = fmt::format("Not verified: {}.", forced_text(plan_, *step.forced));
+    else if (step.forced)
+      page.facts.emplace_back(step.forced->accepted, forced_text(plan_, *step.forced));
+    if (!step.contacts.empty()) page.facts.emplace_back("touches", text::joined(step.contacts));
+    for (const PlanVerdict& v : step.checks)
+      for (const StepNote& note : v.notes) page.facts.emplace_back("note", note.text);
+    for (const std::string& line : cost_lines(step.checks)) page.facts.emplace_back("check", line);
+    if (!options_.disassembly) page.facts.emplace_back("disassembly", fmt::format("step {}", step.step));
   }
 
   void add_vectors(const MotionSummary& motion, const std::string& who, Facts& facts) const {

@@ -24,7 +24,7 @@ struct BookItem {
 struct BookPage {
   std::string chapter;  ///< "Sub-assembly A"
   bool chapter_begins = false;
-  std::size_t number = 0, count = 0;                        ///< of the pages of steps
+  std::size_t number = 0, count = 0;                        ///< of the step, of all steps of the plan
   std::vector<std::pair<std::size_t, std::string>> moving;  ///< item number, "2 x bolt"
   std::string verb;                                         ///< "Put in", "Take out", "Move aside"
   std::vector<std::string> motions;                         ///< one line per mover
@@ -39,7 +39,7 @@ struct BookContent {
   std::vector<std::string> warnings;
   std::vector<BookItem> items;
   std::vector<BookChapter> chapters;
-  std::vector<BookPage> pages;  ///< `step` points into `chapters`
+  std::vector<BookPage> pages;  ///< by number; `step` points into `chapters`
 };
 
 /// @throws InputError as book_html().

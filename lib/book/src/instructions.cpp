@@ -7,6 +7,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/plan_history.h"
+#include "dismantle/plan_io/step_numbers.h"
 
 namespace dismantle {
 namespace {
@@ -29,9 +30,11 @@ class InstructionWriter {
     find_steps();
     std::vector<BookChapter> out;
     emit(0, out);
-    int letter = 0;
+    std::vector<BookChapter*> named;
     for (BookChapter& chapter : out)
-      if (chapter.letter == 0) chapter.letter = letter++;
+      if (chapter.letter == 0) named.push_back(&chapter);
+    std::ranges::sort(named, {}, [](const BookChapter* chapter) { return chapter->steps.front().number; });
+    for (std::size_t k = 0; k < named.size(); ++k) named[k]->letter = static_cast<int>(k);
     return out;
   }
 
@@ -98,7 +101,8 @@ class InstructionWriter {
     };
     const std::vector<Pose> base = poses_of(seen_from);
     BookStep out;
-    out.plan_step = step.step;
+    out.number = step_number(plan_, s, disassembly_);
+    out.plan_step = s;
     if (step.up) out.up = base.front().q.conjugate() * *step.up;
     for (const std::size_t part : whole) {
       std::vector<Pose> poses = poses_of(part);

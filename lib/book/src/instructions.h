@@ -28,7 +28,8 @@ struct PlacedPart {
 /// One step of the work. Poses are relative to the largest part that stays, whose pose is the assembled one. Directions
 /// are thus those of the assembly, wherever a sub-assembly had been moved before it was disassembled.
 struct BookStep {
-  unsigned plan_step = 0;            ///< number of the disassembly step
+  std::size_t number = 0;            ///< of the step in the mode of the book, as in step_numbers.h
+  std::size_t plan_step = 0;         ///< index into Plan::disassembly
   std::vector<PlacedPart> standing;  ///< the parts that do not move
   std::vector<BookMover> movers;
   std::optional<Eigen::Vector3d> up{};  ///< unit; of the assembly while it lies for this step; none: as drawn
@@ -39,7 +40,7 @@ struct BookChapter {
   std::vector<std::size_t> parts;  ///< ascending
   std::vector<std::size_t> base;   ///< those of `parts` that are never taken out
   std::vector<BookStep> steps;     ///< not empty
-  int letter = -1;  ///< number of the sub-assembly in the order of the chapters, from 0; -1: the whole assembly
+  int letter = -1;  ///< number of the sub-assembly in the order of the first steps, from 0; -1: the whole assembly
 };
 
 /// For assembly, the chapter of a sub-assembly precedes that of the group that it joins; for disassembly, it follows.

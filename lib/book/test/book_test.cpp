@@ -117,13 +117,42 @@ TEST(Instructions, EachPartJoinsOnceAndEndsWhereItBelongs) {
   }
 }
 
+// A step has one number in each mode: that of the page and of the lists, also where sub-assemblies are built in between.
+TEST(Instructions, StepsHaveTheNumbersOfThePlan) {
+  std::mt19937 random(15);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Assembly assembly = row_of(2 + trial % 9);
+    const Plan plan = random_plan(assembly, random);
+    const std::size_t count = plan.disassembly.size();
+    for (const bool disassembly : {false, true}) {
+      std::set<std::size_t> numbers;
+      int last = -1;
+      std::map<int, std::size_t> first;
+      for (const BookChapter& chapter : instructions(plan, assembly, disassembly)) {
+        first[chapter.letter] = chapter.steps.front().number;
+        for (const BookStep& step : chapter.steps) {
+          EXPECT_EQ(step.number, disassembly ? step.plan_step + 1 : count - step.plan_step);
+          numbers.insert(step.number);
+        }
+      }
+      EXPECT_EQ(numbers.size(), count);
+      std::size_t before = 0;
+      for (const auto& [letter, number] : first) {
+        if (letter < 0) continue;
+        EXPECT_EQ(letter, ++last) << "letters without a gap";
+        EXPECT_GT(number, before) << "in the order of the pages";
+        before = number;
+      }
+    }
+  }
+}
+
 TEST(Instructions, TakingApartIsTheSameBackwards) {
   std::mt19937 random(12);
   for (int trial = 0; trial < 20; ++trial) {
     const Assembly assembly = row_of(2 + trial % 7);
     const Plan plan = random_plan(assembly, random);
-    std::multiset<unsigned> forward, backward;
-    std::map<unsigned, std::size_t> place;
+    std::multiset<std::size_t> forward, backward;
     const auto chapters = instructions(plan, assembly, true);
     EXPECT_EQ(chapters.front().letter, -1) << "the whole comes apart first";
     for (const BookChapter& chapter : chapters) {
@@ -169,6 +198,29 @@ TEST(Book, HtmlHasAPagePerStepAndNamesEveryPart) {
   EXPECT_NE(html.find("5, 3 shapes"), std::string::npos);
   EXPECT_EQ(html.find("http"), html.find("http-equiv")) << "no address of any host";
   EXPECT_EQ(html, book_html(plan, assembly, options_with(options.title)));
+}
+
+TEST(Book, PagesAreInTheOrderOfTheirNumbersAndWarningsNameThem) {
+  std::mt19937 random(16);
+  const Assembly assembly = row_of(7);
+  Plan plan = random_plan(assembly, random);
+  const std::size_t count = plan.disassembly.size();
+  plan.disassembly[1].forced = PlanForced{.part = "p0", .other = "p1", .depth = 0.01, .reason = ""};
+  for (const bool disassembly : {false, true}) {
+    BookOptions options;
+    options.disassembly = disassembly;
+    const std::string html = book_html(plan, assembly, options);
+    std::size_t at = 0;
+    for (std::size_t number = 1; number <= count; ++number) {
+      at = html.find("<span>step " + std::to_string(number) + " of " + std::to_string(count) + "</span>", at);
+      ASSERT_NE(at, std::string::npos) << number;
+    }
+    const std::size_t forced = disassembly ? 2 : count - 1;
+    EXPECT_NE(html.find("in these steps parts cut into others: " + std::to_string(forced) + "."), std::string::npos);
+    const std::size_t page = html.find("id=\"step-" + std::to_string(forced) + "\"");
+    EXPECT_LT(page, html.find("Not verified: p0 cuts")) << "the page of that number says so";
+    EXPECT_LT(html.find("Not verified: p0 cuts"), html.find("</section>", page));
+  }
 }
 
 TEST(Book, PdfHasAPagePerStep) {

@@ -96,7 +96,7 @@ TEST(Exports, MarkdownHasARowPerStepAndNoMarkupOfNames) {
     ++rows;
     std::size_t bars = 0;
     for (std::size_t i = 0; i < line.size(); ++i) bars += line[i] == '|' && (i == 0 || line[i - 1] != '\\');
-    EXPECT_EQ(bars, 6u) << line;
+    EXPECT_EQ(bars, 7u) << line;
     EXPECT_NE(line.find("2 units up"), std::string::npos) << line;
   }
   EXPECT_EQ(rows, plan.disassembly.size());
@@ -138,7 +138,9 @@ TEST(Exports, MarkdownSaysWhyEachForcedStepIsForced) {
   auto [plan, assembly] = random_disassembly(random, 5);
   EXPECT_EQ(steps_markdown(plan, {}).find("forced"), std::string::npos);
   plan.disassembly[2].forced = PlanForced{.part = "hook", .other = "rim", .depth = 1, .reason = "it <snaps>"};
-  EXPECT_NE(steps_markdown(plan, {}).find("- Step 3 cuts hook into rim: it \\<snaps\\>.\n"), std::string::npos);
+  const std::string numbers = "Step 3 (" + std::to_string(plan.disassembly.size() - 2) + " in assembly)";
+  EXPECT_NE(steps_markdown(plan, {}).find("- " + numbers + " cuts hook into rim: it \\<snaps\\>.\n"),
+            std::string::npos);
 }
 
 TEST(MotionWords, LegsOfAPathAreFoundAgain) {

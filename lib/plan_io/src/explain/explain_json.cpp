@@ -1,6 +1,7 @@
 #include <numbers>
 
 #include "dismantle/plan_io/explain.h"
+#include "dismantle/plan_io/step_numbers.h"
 #include "dismantle/plan_io/summary.h"
 #include "json/json_text.h"
 
@@ -52,7 +53,7 @@ std::string explain_json(const Explanation& e) {
   const Plan& plan = *e.plan;
   Json steps = Json::array(), left = Json::array(), excluded = Json::array();
   for (const StepReason& s : e.steps) {
-    Json one = {{"step", s.step}, {"parts", s.parts}};
+    Json one = {{"step", s.step}, {"assembly_step", step_number(plan, s.step - 1, false)}, {"parts", s.parts}};
     if (s.known) one["after"] = s.after;
     if (s.known) one["waited_for"] = s.waited_for;
     one["contacts"] = s.contacts;

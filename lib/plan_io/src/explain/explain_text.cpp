@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "dismantle/plan_io/explain.h"
+#include "dismantle/plan_io/step_numbers.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/text_columns.h"
 
@@ -99,9 +100,11 @@ std::string steps_text(const Explanation& e) {
   if (e.steps.empty()) return "";
   std::size_t width = 4;
   for (const StepReason& step : e.steps) width = text::column_of(width, text::joined(step.parts));
-  std::string out = "\nwhy this order:\n";
+  std::string out = "\nwhy this order (numbers of the disassembly, in brackets those of the assembly):\n";
+  const std::size_t digits = std::to_string(e.plan->disassembly.size()).size() + 2;
   for (const StepReason& step : e.steps) {
-    out += fmt::format("{:>5}  {}  ", step.step, text::padded(text::joined(step.parts), width));
+    const std::string in_assembly = fmt::format("({})", step_number(*e.plan, step.step - 1, false));
+    out += fmt::format("{:>5} {:>{}}  {}  ", step.step, in_assembly, digits, text::padded(text::joined(step.parts), width));
     const PlanStep& done = e.plan->disassembly.at(step.step - 1);
     if (done.forced) {
       out += fmt::format("FORCED: {}\n", forced_text(*e.plan, *done.forced));

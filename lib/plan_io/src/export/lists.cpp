@@ -11,6 +11,7 @@
 #include "dismantle/plan_io/csv_text.h"
 #include "dismantle/plan_io/exports.h"
 #include "dismantle/plan_io/motion_words.h"
+#include "dismantle/plan_io/step_numbers.h"
 #include "dismantle/plan_io/text_columns.h"
 #include "dismantle/plan_io/verdicts.h"
 
@@ -111,7 +112,7 @@ std::vector<std::string> waits_for(const Plan& plan) {
                          fmt::format("step {} of the plan waits for step {}, which it does not have",
                                      plan.disassembly[k].step, before));
       std::string& list = out[known->second];
-      list += fmt::format("{}{}", list.empty() ? "" : ";", steps - k);
+      list += fmt::format("{}{}", list.empty() ? "" : ";", step_number(plan, k, false));
     }
   }
   return out;
@@ -159,7 +160,7 @@ std::string steps_csv(const Plan& plan, const InputFrame& frame) {
       travel = figure_text(summary.length);
       turn = figure_text(summary.turn * 180 / std::numbers::pi);
     }
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", plan.disassembly.size() - k, csv_field(listed(parts)),
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", step_number(plan, k, false), csv_field(listed(parts)),
                        csv_field(motion), direction, travel, turn, unit.name, waits[k],
                        step.forced ? figure_text(unit.factor * step.forced->depth) : "", csv_field(listed(notes)));
   }

@@ -5,6 +5,7 @@
 
 #include "dismantle/plan_io/exports.h"
 #include "dismantle/plan_io/motion_words.h"
+#include "dismantle/plan_io/step_numbers.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/text_columns.h"
 #include "dismantle/plan_io/verdicts.h"
@@ -43,9 +44,10 @@ std::string judged_cell(const std::vector<PlanVerdict>& checks) {
 /// A list, one line for each forced step.
 std::string forced_reasons(const Plan& plan) {
   std::string out;
-  for (const PlanStep& step : plan.disassembly)
-    if (step.forced && !step.forced->reason.empty())
-      out += fmt::format("- Step {} cuts {} into {}: {}.\n", step.step, markdown_text(step.forced->part),
+  for (std::size_t k = 0; k < plan.disassembly.size(); ++k)
+    if (const PlanStep& step = plan.disassembly[k]; step.forced && !step.forced->reason.empty())
+      out += fmt::format("- Step {} ({} in assembly) cuts {} into {}: {}.\n", step_number(plan, k, true),
+                         step_number(plan, k, false), markdown_text(step.forced->part),
                          markdown_text(step.forced->other), markdown_text(step.forced->reason));
   return out.empty() ? out : "\nWhy steps are forced:\n\n" + out;
 }
@@ -83,10 +85,11 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
   if (judged) out += markdown_text(objective_text(plan)) + ".\n\n";
   if (!plan.disassembly.empty()) {
     const bool forced = plan.forced_steps() > 0;
-    out += fmt::format("| step | parts | motion | waits for | touches |{}{}\n|---:|---|---|---|---|{}{}\n",
+    out += fmt::format("| step | in assembly | parts | motion | waits for | touches |{}{}\n|---:|---:|---|---|---|---|{}{}\n",
                        forced ? " cuts in |" : "", judged ? " as an assembly operation |" : "", forced ? "---:|" : "",
                        judged ? "---|" : "");
-    for (const PlanStep& step : plan.disassembly) {
+    for (std::size_t k = 0; k < plan.disassembly.size(); ++k) {
+      const PlanStep& step = plan.disassembly[k];
       std::string motion = "-";
       if (!step.moves.empty()) {
         const std::vector<Pose>& poses = step.moves.front().poses;
@@ -98,14 +101,17 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
       if (step.forced)
         cuts = fmt::format("**{}: {} {}**", step.forced->accepted.empty() ? "forced" : "accepted",
                            figure_text(unit.factor * step.forced->depth), unit.name);
-      out += fmt::format("| {} | {}{} | {} | {} | {} |{}{}\n", step.step, markdown_text(text::names_of(plan, step)),
-                         what, markdown_text(motion), step.layer > 0 ? steps_list(step.after) : "not recorded",
+      out += fmt::format("| {} | {} | {}{} | {} | {} | {} |{}{}\n", step_number(plan, k, true), step_number(plan, k, false),
+                         markdown_text(text::names_of(plan, step)), what, markdown_text(motion),
+                         step.layer > 0 ? steps_list(step.after) : "not recorded",
                          step.contacts.empty() ? "-" : markdown_text(text::joined(step.contacts)),
                          forced ? fmt::format(" {} |", cuts.empty() ? "-" : cuts) : "",
                          judged ? " " + judged_cell(step.checks) + " |" : "");
     }
     out +=
-        "\nMotions are those of the first part named, at the assembly's middle, or on the axis about which it turns.\n";
+        "\nSteps have their numbers in the disassembly; in the assembly, which is the same backwards, they have those of the "
+        "second column. Motions are those of the first part named, at the assembly's middle, or on the axis about which it "
+        "turns.\n";
     out += forced_reasons(plan) + details(plan);
   }
   if (!plan.remaining.empty()) out += fmt::format("\nStays: {}.\n", markdown_text(text::joined(plan.remaining)));
