@@ -197,12 +197,6 @@ class Converter {
     body.parents = placed.parents;
     body.instances = placed.instances;
     body.product = placed.product;
-    if (placed.kind == BodyKind::open_shell) {
-      body.problem = "it is a surface and no solid (an open shell of " + std::to_string(placed.faces) +
-                     (placed.faces == 1 ? " face" : " faces") + "): close or thicken it in the CAD program";
-      out_.body(body);
-      return true;
-    }
     int index = 0;
     index_.Find(placed.shape.Located(TopLoc_Location()), index);
     const Surface& surface = surface_of(static_cast<std::size_t>(index), placed, assembly);

@@ -1,5 +1,6 @@
 #include "product_tree.h"
 
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <TDF_LabelSequence.hxx>
 #include <TDF_Tool.hxx>
@@ -32,10 +33,10 @@ struct Product {
     std::size_t faces = 0;
   };
   std::vector<Member> members;
-  std::size_t free_faces = 0, wires = 0, points = 0;
+  std::size_t free_faces = 0, wires = 0, points = 0;  // free_faces: beside members
   std::shared_ptr<const ProductColours> colours;
   /// Whether it is nothing but construction geometry.
-  bool drawn() const { return members.empty() && free_faces == 0 && wires + points > 0; }
+  bool drawn() const { return members.empty() && wires + points > 0; }
 };
 
 std::size_t count(const TopoDS_Shape& shape, TopAbs_ShapeEnum what, TopAbs_ShapeEnum outside = TopAbs_SHAPE) {
@@ -118,7 +119,8 @@ class Walker {
     const Product& product = product_of(label);
     std::string own = name(label);
     if (own.empty()) own = instance_name.empty() ? "part" : instance_name;
-    if (product.members.empty()) return leave_out(label, instance_name, path.parents, problem_of(product), product.drawn());
+    if (product.members.empty())
+      return leave_out(label, instance_name, path.parents, problem_of(product), product.drawn());
     for (std::size_t i = 0; i < product.members.size(); ++i) {
       const auto& member = product.members[i];
       PlacedBody body;
@@ -173,7 +175,7 @@ class Walker {
   static std::string problem_of(const Product& product) {
     const std::string list = listed(product);
     if (list.empty()) return "it has no body: the file has no shape for it, or one of a kind that is not read";
-    return "it is no body, it holds " + list + (product.drawn() ? "" : ": close or thicken it in the CAD program");
+    return "it is no body, it holds " + list;
   }
 
   /// Once for each name, not for each instance.
@@ -192,9 +194,18 @@ class Walker {
     const TopoDS_Shape shape = XCAFDoc_ShapeTool::GetShape(label);
     if (shape.IsNull()) return product;
     for (TopExp_Explorer it(shape, TopAbs_SOLID); it.More(); it.Next()) add(product, BodyKind::solid, it.Current());
+    TopoDS_Compound surface;  // open shells are one; faces without a shell belong to it when there is nothing else
+    BRep_Builder builder;
+    builder.MakeCompound(surface);
     for (TopExp_Explorer it(shape, TopAbs_SHELL, TopAbs_SOLID); it.More(); it.Next())
-      add(product, BRep_Tool::IsClosed(it.Current()) ? BodyKind::closed_shell : BodyKind::open_shell, it.Current());
-    product.free_faces = count(shape, TopAbs_FACE, TopAbs_SHELL);
+      if (BRep_Tool::IsClosed(it.Current()))
+        add(product, BodyKind::closed_shell, it.Current());
+      else
+        builder.Add(surface, it.Current());
+    if (!product.members.empty()) product.free_faces = count(shape, TopAbs_FACE, TopAbs_SHELL);
+    for (TopExp_Explorer it(shape, TopAbs_FACE, TopAbs_SHELL); it.More() && product.members.empty(); it.Next())
+      builder.Add(surface, it.Current());
+    if (count(surface, TopAbs_FACE) > 0) add(product, BodyKind::open_surface, surface);
     product.wires = count(shape, TopAbs_WIRE, TopAbs_FACE) + count(shape, TopAbs_EDGE, TopAbs_WIRE);
     product.points = count(shape, TopAbs_VERTEX, TopAbs_EDGE);
     name_members(label, product);

@@ -14,7 +14,9 @@
 
 namespace dismantle::step_import {
 
-enum class BodyKind { solid, closed_shell, open_shell };
+/// open_surface: the open shells of a product, with its faces without a shell if it has neither solids nor closed
+/// shells.
+enum class BodyKind { solid, closed_shell, open_surface };
 
 /// One body at one place of the assembly.
 struct PlacedBody {

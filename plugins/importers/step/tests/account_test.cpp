@@ -1,7 +1,6 @@
 // Every product of a file arrives, or is named: STEP files written by Open CASCADE and changed as text.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-
 #include <fstream>
 #include <iterator>
 #include <regex>

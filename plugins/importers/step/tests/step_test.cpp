@@ -1,12 +1,10 @@
 // Laws on STEP files of random boxes and cylinders, written by Open CASCADE and read by the reader program.
 #include <gtest/gtest.h>
 
-#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRep_Builder.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS_Compound.hxx>
-#include <TopoDS_Shell.hxx>
 #include <algorithm>
 #include <cctype>
 #include <map>
@@ -167,29 +165,6 @@ TEST(StepImporter, ColoursOfInstancesProductsSolidsAndFaces) {
   EXPECT_EQ(in.parts[1].colour, green);
   EXPECT_EQ(in.parts[2].colour, blue);
   EXPECT_EQ(in.parts[3].colour, std::nullopt);
-}
-
-TEST(StepImporter, WhatIsNoSolidIsNamed) {
-  StepFile out;
-  const TDF_Label root = out.assembly("root");
-  BRep_Builder builder;
-  TopoDS_Shell open;
-  builder.MakeShell(open);
-  int face = 0;
-  for (TopExp_Explorer it(box(5, 5, 5), TopAbs_FACE); it.More() && face < 5; it.Next(), ++face)
-    builder.Add(open, it.Current());
-  out.place(root, out.product(box(9, 9, 9), "block"), moved(0, 0, 0));
-  out.place(root, out.product(open, "hood"), moved(20, 0, 0));
-  out.place(root, out.product(BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(1, 2, 3)).Shape(), "axis"),
-            moved(0, 0, 0));
-  Scratch scratch;
-  out.write(scratch / "a.step");
-  const Read in = read(scratch / "a.step");
-  ASSERT_EQ(names(in), (std::vector<std::string>{"block", "hood", "axis"})) << in.log;
-  EXPECT_NE(in.parts[1].problem.find("an open shell of 5 faces"), std::string::npos) << in.parts[1].problem;
-  EXPECT_TRUE(in.parts[1].mesh.empty());
-  EXPECT_NE(in.parts[2].problem.find("it holds 1 curve"), std::string::npos) << in.parts[2].problem;
-  EXPECT_TRUE(in.parts[2].by_meaning && !in.parts[1].by_meaning) << "construction geometry";
 }
 
 TEST(StepImporter, SolidsOfOneProductAreParts) {
