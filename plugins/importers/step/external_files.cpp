@@ -7,6 +7,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "compressed.h"
+#include "dismantle/errors.h"
 #include "dismantle/referenced_file.h"
 
 namespace dismantle::step_import {
@@ -46,9 +48,13 @@ std::set<std::string> names_in(const std::string& text) {
   return names;
 }
 
-void search(const fs::path& file, std::set<fs::path>& seen, ExternalFiles& out) {
+std::string text_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(in), {});
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// `text`: of `file`.
+void search(const fs::path& file, const std::string& text, std::set<fs::path>& seen, ExternalFiles& out) {
   for (const std::string& name : names_in(text)) {
     const fs::path path = file.parent_path() / name;
     std::error_code ec;
@@ -59,7 +65,7 @@ void search(const fs::path& file, std::set<fs::path>& seen, ExternalFiles& out) 
       out.refused.push_back(name);
     } else if (seen.insert(fs::canonical(path, ec)).second) {
       out.read.push_back(path);
-      search(path, seen, out);
+      search(path, text_of(path), seen, out);
     }
   }
 }
@@ -70,7 +76,12 @@ ExternalFiles external_files(const fs::path& file) {
   ExternalFiles out;
   std::error_code ec;
   std::set<fs::path> seen{fs::canonical(file, ec)};
-  if (fs::is_regular_file(file, ec)) search(file, seen, out);
+  if (!fs::is_regular_file(file, ec)) return out;
+  try {
+    search(file, is_compressed(file) ? unpacked(file) : text_of(file), seen, out);
+  } catch (const InputError&) {  // a damaged archive: reading it says so
+    return {};
+  }
   return out;
 }
 

@@ -6,7 +6,9 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 
+#include "compressed.h"
 #include "dismantle/errors.h"
 #include "external_files.h"
 #include "read_in_child.h"
@@ -16,11 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Refuses truncated files and files of other formats before a process is started for them.
-void check_ends(const fs::path& file) {
+/// Refuses truncated files and files of other formats before a process is started for them. `in`: the text of `file`.
+void check_ends(std::istream& in, const fs::path& file) {
   const std::streamoff look = 1 << 16;  // bytes at both ends; comments may stand there
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(file.string(), fmt::format("cannot be opened: {}", std::strerror(errno)));
   in.seekg(0, std::ios::end);
   const std::streamoff size = in.tellg();
   const auto part = [&](std::streamoff from, std::streamoff length) {
@@ -31,15 +31,20 @@ void check_ends(const fs::path& file) {
     text.resize(static_cast<std::size_t>(in.gcount()));
     return text;
   };
-  const std::string head = part(0, std::min(size, look));
-  if (head.starts_with("\x1F\x8B") || head.starts_with("PK\x03\x04"))
-    throw InputError(file.string(), "compressed STEP files are not read: unpack it first (gunzip or unzip)");
-  if (head.find("ISO-10303-21") == std::string::npos)
+  if (part(0, std::min(size, look)).find("ISO-10303-21") == std::string::npos)
     throw InputError(file.string(), "this is no STEP file: it does not begin with ISO-10303-21");
   const std::streamoff tail = std::min(size, look);
   if (part(size - tail, tail).find("END-ISO-10303-21") == std::string::npos)
     throw InputError(file.string(),
                      "the file is cut off: its end, END-ISO-10303-21, is missing; export or copy it again");
+}
+
+void check_ends(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw InputError(file.string(), fmt::format("cannot be opened: {}", std::strerror(errno)));
+  if (!is_compressed(file)) return check_ends(in, file);
+  std::istringstream text(unpacked(file));
+  check_ends(text, file);
 }
 
 }  // namespace

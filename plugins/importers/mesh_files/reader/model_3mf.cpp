@@ -37,7 +37,7 @@ class ModelParser {
     xml_.end = [this] { --depth_; };
   }
 
-  Model3mf read(Archive3mf& archive) {
+  Model3mf read(reader_process::ZipArchive& archive) {
     try {
       archive.read(name_, [this](std::string_view bytes) { xml_.feed(bytes); });
       xml_.feed({}, true);
@@ -205,11 +205,12 @@ class ModelParser {
 
 }  // namespace
 
-Model3mf read_model_3mf(Archive3mf& archive, const std::filesystem::path& file, const std::string& name) {
+Model3mf read_model_3mf(reader_process::ZipArchive& archive, const std::filesystem::path& file,
+                        const std::string& name) {
   return ModelParser(file, name).read(archive);
 }
 
-std::string target_3mf(Archive3mf& archive, const std::filesystem::path& file, const std::string& rels,
+std::string target_3mf(reader_process::ZipArchive& archive, const std::filesystem::path& file, const std::string& rels,
                        const std::string& type) {
   std::string target;
   if (!archive.holds(rels)) return target;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "appearance.h"
-#include "archive_3mf.h"
+#include "zip_archive.h"
 #include "dismantle/mesh.h"
 
 namespace dismantle::mesh_files {
@@ -37,10 +37,11 @@ struct Model3mf {
 
 /// Reads `name`. XML in any encoding that it may have, with any prefixes.
 /// @throws InputError for damaged XML with its line, and for a required extension that changes shapes and is not read.
-Model3mf read_model_3mf(Archive3mf& archive, const std::filesystem::path& file, const std::string& name);
+Model3mf read_model_3mf(reader_process::ZipArchive& archive, const std::filesystem::path& file,
+                        const std::string& name);
 
 /// The target of the relationship whose type ends with `type` in a .rels file; empty when there is none.
-std::string target_3mf(Archive3mf& archive, const std::filesystem::path& file, const std::string& rels,
+std::string target_3mf(reader_process::ZipArchive& archive, const std::filesystem::path& file, const std::string& rels,
                        const std::string& type);
 
 }  // namespace dismantle::mesh_files

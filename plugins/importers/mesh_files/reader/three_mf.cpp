@@ -7,7 +7,6 @@
 #include <set>
 #include <utility>
 
-#include "archive_3mf.h"
 #include "dismantle/errors.h"
 #include "dismantle/geometry/length_unit.h"
 #include "input_limits.h"
@@ -18,7 +17,7 @@ namespace {
 
 class Builder {
  public:
-  explicit Builder(const std::filesystem::path& file) : file_(file), archive_(file) {}
+  explicit Builder(const std::filesystem::path& file) : file_(file), archive_(file, "3mf file") {}
 
   PartsOfFile build() {
     const std::string root = target_3mf(archive_, file_, "_rels/.rels", "/3dmodel");
@@ -119,7 +118,7 @@ class Builder {
   }
 
   const std::filesystem::path& file_;
-  Archive3mf archive_;
+  reader_process::ZipArchive archive_;
   std::string root_, unit_;
   std::map<std::string, Model3mf> models_;
   std::set<std::pair<std::string, std::string>> placed_;  // file and id of objects

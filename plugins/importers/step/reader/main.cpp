@@ -24,10 +24,13 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <set>
+#include <sstream>
 #include <string>
 #include <stdexcept>
 
+#include "compressed.h"
 #include "dismantle/geometry/length_unit.h"
 #include "lost_products.h"
 #include "mapped_items.h"
@@ -126,11 +129,14 @@ class Converter {
     Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
     // Each byte becomes one character, and none is lost: see recoded().
     Interface_Static::SetCVal("read.step.codepage", "iso8859-1");
-    encoding_ = encoding_of(arguments_.file);
+    const std::unique_ptr<std::istream> text = text_of_file();
+    encoding_ = encoding_of(*text);
     if (encoding_ != TextEncoding::utf8)
       out_.warning(std::string("names are not in UTF-8, as the standard has it: read as ") +
                    (encoding_ == TextEncoding::gb18030 ? "GB18030" : "Latin-1 (Windows-1252)"));
-    if (reader.ReadFile(arguments_.file.c_str()) != IFSelect_RetDone) {
+    text->clear();
+    text->seekg(0);
+    if (reader.ChangeReader().ReadStream(arguments_.file.c_str(), *text) != IFSelect_RetDone) {
       out_.failure(Failure::unreadable, "Open CASCADE cannot read it: the file is damaged or is no STEP file");
       return {};
     }
@@ -146,6 +152,11 @@ class Converter {
       return {};
     }
     return document;
+  }
+
+  std::unique_ptr<std::istream> text_of_file() const {
+    if (is_compressed(arguments_.file)) return std::make_unique<std::istringstream>(unpacked(arguments_.file));
+    return std::make_unique<std::ifstream>(arguments_.file, std::ios::binary);
   }
 
   /// Shapes are read in millimetres and written in the file's own unit, if it has one.

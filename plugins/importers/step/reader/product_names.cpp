@@ -5,7 +5,7 @@
 #include <TCollection_AsciiString.hxx>
 #include <TDataStd_Name.hxx>
 #include <algorithm>
-#include <fstream>
+#include <istream>
 #include <map>
 #include <optional>
 #include <set>
@@ -96,8 +96,7 @@ const char* name_of(TextEncoding encoding) {
 }
 
 /// What stands in the file from a byte that is not ASCII to the end of its string; samples end with a line break.
-std::string samples_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
+std::string samples_of(std::istream& in) {
   std::string samples, block(1 << 16, '\0');
   bool inside = false;
   const std::size_t enough = 1 << 18;  // bytes
@@ -129,7 +128,7 @@ bool reads_like_chinese(const std::string& utf8) {
 
 }  // namespace
 
-TextEncoding encoding_of(const std::string& file) {
+TextEncoding encoding_of(std::istream& file) {
   const std::string samples = samples_of(file);
   if (converted(samples, "UTF-8")) return TextEncoding::utf8;
   const std::optional<std::string> chinese = converted(samples, "GB18030");

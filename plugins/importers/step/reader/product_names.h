@@ -2,6 +2,7 @@
 #pragma once
 
 #include <TDF_Label.hxx>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,8 @@ namespace dismantle::step_import {
 /// How text of a file is encoded that is not UTF-8.
 enum class TextEncoding { utf8, windows_1252, gb18030 };
 
-/// Found from all text of `file` that is not ASCII. Empty or unreadable files are UTF-8.
-TextEncoding encoding_of(const std::string& file);
+/// Found from all text of a file that is not ASCII. Empty or unreadable files are UTF-8.
+TextEncoding encoding_of(std::istream& file);
 
 /// `text`: as Open CASCADE read it, each byte of the file as one character (read.step.codepage iso8859-1). Each word
 /// that is UTF-8 stays, the others are converted.

@@ -164,14 +164,6 @@ TEST(StepAccount, SeveralLengthUnitsAreReadInMillimetresWithAWarning) {
   EXPECT_EQ(in.parts[0].unit, "mm");
 }
 
-TEST(StepAccount, CompressedFilesAreRefusedByName) {
-  const Scratch scratch;
-  for (const std::string begin : {"\x1F\x8B", "PK\x03\x04"}) {
-    const std::string error = input_error([&] { read(scratch.write("a.stpz", begin + std::string(100, 'x'))); });
-    EXPECT_NE(error.find("compressed STEP files are not read"), std::string::npos) << error;
-  }
-}
-
 std::string refers_to(const std::string& name) {
   return "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n#1=DOCUMENT_FILE('" + name +
          "','',$,#2,'',$);\n#2=DOCUMENT_TYPE('');\nENDSEC;\nEND-ISO-10303-21;\n";

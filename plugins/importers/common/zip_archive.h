@@ -1,4 +1,4 @@
-/// The files in a 3MF archive.
+/// The files in a zip archive, and the limits of all compressed input.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +7,24 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
-namespace dismantle::mesh_files {
+namespace dismantle::reader_process {
+
+/// Text of meshes and STEP shrinks to a tenth. What shrinks to a hundredth was made to fill the memory.
+/// @returns the reason to refuse it, or "".
+std::string expands_too_much(std::uint64_t compressed, std::uint64_t expanded);
 
 /// A zip archive that may lie about its content. Names are compared without regard to case, as OPC has it.
-class Archive3mf {
+class ZipArchive {
  public:
-  /// @throws InputError when it is no zip archive.
-  explicit Archive3mf(const std::filesystem::path& file);
-  ~Archive3mf();
-  Archive3mf(const Archive3mf&) = delete;
-  Archive3mf& operator=(const Archive3mf&) = delete;
+  /// @throws InputError when it is no zip archive: "this is no `what`, or ...".
+  ZipArchive(const std::filesystem::path& file, const std::string& what);
+  ~ZipArchive();
+  ZipArchive(const ZipArchive&) = delete;
+  ZipArchive& operator=(const ZipArchive&) = delete;
 
+  std::vector<std::string> names();
   bool holds(const std::string& name) const;
   /// Passes the content of `name` to `take`, piece by piece. @throws InputError for damaged content, and for an archive
   /// that expands beyond all reason.
@@ -32,4 +38,4 @@ class Archive3mf {
   std::uint64_t expanded_ = 0;  // bytes, of all that was read
 };
 
-}  // namespace dismantle::mesh_files
+}  // namespace dismantle::reader_process
