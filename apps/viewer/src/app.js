@@ -1,4 +1,5 @@
 // The state of the page, and its effect on the scene. Every change of the state notifies the listeners.
+import {partly} from './plan/lies.js';
 import {screwInterpolate} from './plan/screw.js';
 import {Parts} from './scene/parts.js';
 
@@ -26,6 +27,8 @@ export class App {
     this.listeners = [];
     this.stale = true;
     this.pose = new Float64Array(7);
+    this.lies = new Float64Array([0, 0, 0, 1, 0, 0, 0]);  // of the assembly in the scene
+    this.waits = new Float64Array(7);
   }
 
   on(listener) {
@@ -243,6 +246,9 @@ export class App {
   place() {
     const {parts, model, best} = this;
     if (!parts) return;
+    const lies = model.lies[this.mode];
+    if (lies.any) lies.at(this.lies, this.time, model.stepAt(this.mode, this.time), this.stage.up.toArray());
+    else this.lies.set([0, 0, 0, 1, 0, 0, 0]);
     for (let i = 0; i < model.parts.length; ++i) {
       if (best && best.index === i) {
         const u = best.u;
@@ -250,9 +256,12 @@ export class App {
       } else {
         model.poseOf(i, this.mode, this.time, this.pose);
       }
-      parts.move(i, this.pose, this.explode);
+      const share = lies.any ? lies.share(i, this.time) : 0;
+      parts.move(i, this.pose, this.explode, !lies.any || share === 0 ? null : share === 1 ? this.lies : partly(this.waits, this.lies, share));
       parts.bodies[i].setOpacity(this.opacity(i), i === this.selected);
     }
+    this.trails.lie(this.lies);
+    this.places.lie(this.lies);
     this.stale = false;
     this.stage.invalidate(true);
   }
@@ -277,7 +286,7 @@ export class App {
       if (this.trailing === 'step' && this.step >= 0) indices = [this.step];
       if (this.trailing === 'all') indices = this.line.steps.map((_, i) => i);
     }
-    this.trails.show(this.mode, indices, this.colours);
+    this.trails.show(this.mode, indices, this.colours, this.stage.up.toArray());
     this.stage.invalidate();
   }
 

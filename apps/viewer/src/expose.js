@@ -22,6 +22,8 @@ export function expose(app, display) {
     shownPoint: (name, point) => { now(); return app.parts.shownPoint(index(name), point); },
     opacity: name => app.opacity(index(name)),
     colour: name => model.colour(index(name), app.colours),
+    /** The pose of the assembly in the scene, about its middle: how it lies. */
+    lies: () => { now(); return Array.from(app.lies); },
     state: () => ({mode: app.mode, time: app.time, step: app.step, playing: app.playing, explode: app.explode, theme: display.dark ? 'dark' : 'light',
       up: app.stage?.axis, selected: app.selected < 0 ? null : model.parts[app.selected].name, best: app.best ? model.parts[app.best.index].name : null,
       trails: app.trailing, fading: app.fading}),

@@ -1,6 +1,7 @@
 // The plan as the page shows it. What is out when, the exploded view and the reasons come with the page; nothing of it is computed here.
 import {byOrder, given, STAYS, TROUBLE} from './plan/colours.js';
 import {readAnimation, stepAt} from './plan/animation.js';
+import {Lies} from './plan/lies.js';
 import {isBad, sizeOf} from './plan/words.js';
 
 const FADE = 0.3;  // s
@@ -16,6 +17,9 @@ export class Model {
     };
     const box = plan.assembly.bbox ?? [[0, 0, 0], [1, 1, 1]];
     this.origin = box[0].map((x, k) => (x + box[1][k]) / 2);
+    const corners = parts.flatMap(({lo, hi}) => Array.from({length: 8}, (_, c) => lo.map((x, k) => (c >> k & 1 ? hi[k] : x) - this.origin[k])));
+    const lies = mode => new Lies(this.lines[mode], view.steps[mode], corners);
+    this.lies = {disassembly: lies('disassembly'), assembly: lies('assembly')};
     this.offsets = parts.map((_, i) => view.offsets.subarray(3 * i, 3 * i + 3));
     this.unsolved = new Map(plan.unsolved.map(u => [this.index.get(u.part), u]));
     this.reach = new Map(view.reasons.flatMap(reason => reason.parts.map(p => [p.part, p])));
@@ -42,6 +46,11 @@ export class Model {
 
   stepAt(mode, time) {
     return stepAt(this.lines[mode], time);
+  }
+
+  /** What the page says of a step that is shown: how the assembly lies. */
+  about(mode, index) {
+    return this.view.steps[mode][this.lines[mode].steps[index].index];
   }
 
   colour(i, scheme) {

@@ -14,6 +14,7 @@
 #include "dismantle/plan_io/input_frame.h"
 #include "dismantle/plan_io/plan_history.h"
 #include "explain/reach.h"
+#include "page_steps.h"
 #include "steps/timeline.h"
 
 namespace dismantle {
@@ -97,12 +98,14 @@ ViewJson reasons_json(const Explanation& why, const Assembly& assembly, const Pl
 
 ViewJson page_view(const Plan& plan, const Assembly& assembly, const ExplainSettings& settings) {
   const PlanHistory history(plan);
-  const Timeline disassembly = timeline(plan.disassembly, assembly), together = timeline(plan.assembly_steps, assembly);
+  const Timeline disassembly = timeline(plan.disassembly, assembly, disassembly_ups(plan));
+  const Timeline together = timeline(plan.assembly_steps, assembly, assembly_ups(plan));
   const Explanation why = explain(plan, settings);
   ViewJson untried = ViewJson::array();
   for (const std::string& name : why.untried) untried.push_back(history.index_of(name));
   return {{"up", input_frame(plan.assembly).y_up ? "y" : "z"},
           {"leavers", history.leavers()},
+          {"steps", page_steps(plan)},
           {"animations", {{"disassembly", animation_json(disassembly)}, {"assembly", animation_json(together)}}},
           {"parts", parts_json(plan, assembly, history, disassembly, together)},
           {"reasons", reasons_json(why, assembly, history)},

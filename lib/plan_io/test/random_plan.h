@@ -158,8 +158,15 @@ class RandomPlanMaker {
     out_.poses.push_back(now_);
   }
 
+  /// Some steps say how the assembly lies.
+  void lay_down() {
+    for (PlanStep& step : out_.plan.disassembly)
+      if (chance(0.5)) step.up = chance(0.5) ? Eigen::Vector3d(0, 0, -1) : Eigen::Vector3d(1, 0, 0);
+  }
+
   void finish() {
     Plan& plan = out_.plan;
+    if (chance(0.4)) lay_down();
     const bool complete = std::ranges::none_of(groups_, [&](const PartGroup& g) { return divisible(g); });
     plan.status = !complete ? PlanStatus::partial : plan.forced_steps() > 0 ? PlanStatus::forced : PlanStatus::complete;
     const bool kept_is_left = chance(0.5);
@@ -176,6 +183,7 @@ class RandomPlanMaker {
       PlanStep step = plan.disassembly[s];
       step.step = static_cast<unsigned>(plan.assembly_steps.size() + 1);
       step.separates.clear();
+      step.up.reset();  // as the step that it reverses
       step.transfer = chance(0.5) ? 0 : 1 + rng_.below(4);
       std::vector<Pose> along;
       for (std::size_t k = 0; k < step.transfer; ++k) along.push_back(random_step());

@@ -120,10 +120,15 @@ TEST(PlanHistory, WhenAllIsNamedWhatDoesNotMoveStays) {
 TEST(Timeline, StepsFollowEachOtherAndEveryPoseHasItsTime) {
   for_random_plans([](const Assembly& assembly, const RandomPlan& truth) {
     for (const auto* steps : {&truth.plan.disassembly, &truth.plan.assembly_steps}) {
-      const Timeline line = timeline(*steps, assembly);
+      const bool apart = steps == &truth.plan.disassembly;
+      const StepUps ups = apart ? disassembly_ups(truth.plan) : assembly_ups(truth.plan);
+      const Timeline line = timeline(*steps, assembly, ups);
       float before = 0;
+      std::optional<std::size_t> last;
       for (const StepTime& step : line.steps) {
         EXPECT_GT(step.begin, before + 0.29F) << "a pause";
+        EXPECT_EQ(step.begin > before + 1.19F, last && ups[*last] != ups[step.index]) << "time to turn the assembly";
+        last = step.index;
         EXPECT_GE(step.end - step.begin, 1 - 1e-4F);
         EXPECT_LE(step.end - step.begin, 3 + 1e-4F);
         ASSERT_EQ(step.pose_times.size(), (*steps)[step.index].moves.front().poses.size());
@@ -142,7 +147,7 @@ TEST(Timeline, StepsFollowEachOtherAndEveryPoseHasItsTime) {
       }
     }
   });
-  EXPECT_EQ(timeline({}, Assembly{}).duration, 0);
+  EXPECT_EQ(timeline({}, Assembly{}, {}).duration, 0);
 }
 
 TEST(Explode, BoxesOfPartsThatComeApartAreClearOfEachOther) {

@@ -38,12 +38,12 @@ export class Track {
  * @param steps `disassembly` or `assembly_steps` of a plan
  * @param animation {duration, times}: a time for each pose of the steps that move something, in their order
  * @param index part index by name
- * @returns {tracks, steps, duration}: a Track or null per part index; the steps that move something, with times and parts
+ * @returns {tracks, steps, duration}: a Track or null per part index; the steps that move something, with their index in the plan, times and parts
  */
 export function readAnimation(steps, {duration, times: all}, index) {
   const keys = Array.from({length: index.size}, () => ({times: [], poses: []})), out = [];
   let used = 0;
-  for (const step of steps) {
+  for (const [at, step] of steps.entries()) {
     if (step.moves.length === 0) continue;
     const times = all.subarray(used, used += step.moves[0].poses.length), parts = step.moves.map(move => index.get(move.part));
     step.moves.forEach(({poses}, m) => {
@@ -51,7 +51,7 @@ export function readAnimation(steps, {duration, times: all}, index) {
       key.times.push(...times);
       for (const pose of poses) key.poses.push(...pose);
     });
-    out.push({step, begin: times[0], end: times[times.length - 1], times, parts});
+    out.push({step, index: at, begin: times[0], end: times[times.length - 1], times, parts});
   }
   if (used !== all.length) throw new Error('the times in this page are not those of its plan');
   return {tracks: keys.map(({times, poses}) => times.length > 0 ? new Track(times, poses) : null), steps: out, duration};

@@ -98,13 +98,20 @@ export class Parts {
     this.lines.marked.color.set(dark ? 0x9db4ff : 0x2347e8);
   }
 
-  /** Puts part `i` at `pose` (7 numbers, input coordinates), shifted by `share` of its offset in the exploded view. */
-  move(i, pose, share) {
+  /**
+   * Puts part `i` at `pose` (7 numbers, input coordinates), shifted by `share` of its offset in the exploded view.
+   * `lies`: a pose about the scene's origin that comes after, or null.
+   */
+  move(i, pose, share, lies = null) {
     const {part, mesh} = this.bodies[i], {place} = part, out = this.place;
     multiply(out, 3, pose, 3, place, 3);
     transform(out, pose, 0, place);
     const {origin, offsets} = this.model, offset = offsets[i];
     for (let k = 0; k < 3; ++k) out[k] += share * offset[k] - origin[k];
+    if (lies) {
+      multiply(out, 3, lies, 3, out, 3);
+      transform(out, lies, 0, out);
+    }
     const w = out[3], x = out[4], y = out[5], z = out[6], m = mesh.matrixWorld.elements;
     m[0] = 1 - 2 * (y * y + z * z), m[1] = 2 * (x * y + w * z), m[2] = 2 * (x * z - w * y);
     m[4] = 2 * (x * y - w * z), m[5] = 1 - 2 * (x * x + z * z), m[6] = 2 * (y * z + w * x);

@@ -13,6 +13,12 @@ export class Places {
     this.material = new THREE.MeshBasicMaterial({color: MARK, depthTest: false, transparent: true, opacity: 0.9});
   }
 
+  /** Turns what is shown as the assembly is: `pose` about the scene's origin. */
+  lie(pose) {
+    this.group.position.set(pose[0], pose[1], pose[2]);
+    this.group.quaternion.set(pose[4], pose[5], pose[6], pose[3]);
+  }
+
   /** `points`: input coordinates. */
   show(points) {
     this.group.clear();

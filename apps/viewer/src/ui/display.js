@@ -38,6 +38,7 @@ export class Display {
   turnUp() {
     this.axis = this.axis === 'z' ? 'y' : 'z';
     this.app.stage?.setUp(this.axis);
+    if (this.app.stage) this.app.place();
     this.app.settle();
     this.app.stage?.fit(this.app.parts.boxes(i => this.app.opacity(i) > 0), {fly: false, from: 'corner', margin: 1.3});
     this.app.tell('display');

@@ -1,8 +1,16 @@
 // Shows the directions of the input's axes. A click on an axis makes the camera look along it.
+import {transform} from '../plan/screw.js';
+
 const NAMES = ['X', 'Y', 'Z'], COLOURS = ['#e5484d', '#30a46c', '#3e7bfa'];
 const SVG = 'http://www.w3.org/2000/svg';
 
 export function makeGizmo(app) {
+  const axis = new Float64Array(3), turn = new Float64Array(7);
+  /** The direction in the scene of one of the input: the assembly may lie otherwise than drawn. */
+  const turned = (out, direction) => {
+    for (let k = 3; k < 7; ++k) turn[k] = app.lies[k];
+    return transform(out, turn, 0, direction);
+  };
   const svg = document.createElementNS(SVG, 'svg');
   svg.setAttribute('viewBox', '-40 -40 80 80');
   svg.setAttribute('class', 'gizmo');
@@ -19,8 +27,10 @@ export function makeGizmo(app) {
     group.addEventListener('click', () => {
       const from = [0, 0, 0];
       from[k] = 1;
+      turned(from, from);
       // A view along the up axis would leave the camera's up direction undefined.
-      if (name.toLowerCase() === app.stage.axis) from[k === 2 ? 1 : 2] = k === 2 ? -1e-3 : 1e-3;
+      const up = app.stage.up.toArray();
+      if (Math.abs(from[0] * up[0] + from[1] * up[1] + from[2] * up[2]) > 0.999) from[app.stage.axis === 'z' ? 1 : 2] += app.stage.axis === 'z' ? -1e-3 : 1e-3;
       app.fit(true, 1.2, from);
     });
     svg.append(group);
@@ -28,7 +38,12 @@ export function makeGizmo(app) {
   });
   const draw = camera => {
     const m = camera.matrixWorldInverse.elements;
-    const ends = axes.map((_, k) => ({k, x: 27 * m[4 * k], y: -27 * m[4 * k + 1], z: m[4 * k + 2]}));
+    const ends = axes.map((_, k) => {
+      axis.fill(0);
+      axis[k] = 1;
+      const [x, y, z] = turned(axis, axis), row = r => m[r] * x + m[4 + r] * y + m[8 + r] * z;
+      return {k, x: 27 * row(0), y: -27 * row(1), z: row(2)};
+    });
     for (const {k, x, y} of ends) {
       axes[k].line.setAttribute('x2', x.toFixed(1));
       axes[k].line.setAttribute('y2', y.toFixed(1));

@@ -17,9 +17,13 @@ function details({plan}, step) {
   return element('details', {open: detailsOpen, ontoggle: e => { detailsOpen = e.target.open; }}, element('summary', {}, 'Details'), element('dl.facts', {}, rows));
 }
 
-function facts(app, {step}) {
+function facts(app, index) {
+  const {step} = app.line.steps[index];
   const {plan} = app.model, rows = [];
   const row = (name, value) => rows.push(element('dt', {}, name), element('dd', {}, value));
+  const {lies_words: lies, turned} = app.model.about(app.mode, index);
+  if (turned) row('first', 'turn the assembly');
+  if (lies) row('lies', lies);
   if (step.moves.length > 1) row('moves', step.moves.map(m => m.part).join(', '));
   if (step.separates?.some(g => g.length > 1)) row('group', step.separates.filter(g => g.length > 1).map(g => g.join(', ')).join(' | '));
   if (step.contacts?.length > 0) row('touches', step.contacts.join(', '));
@@ -60,7 +64,7 @@ export function makeSteps(app) {
     const item = items[open];
     if (!item) return;
     item.classList.add('open');
-    item.append(facts(app, app.line.steps[open]));
+    item.append(facts(app, open));
     if (list.offsetParent !== null) follow(item);
   }
 

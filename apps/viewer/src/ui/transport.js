@@ -36,7 +36,7 @@ export function makeTransport(app) {
   const speed = element('button.chip', {type: 'button', title: 'Speed (< and >)',
     onclick: () => app.setSpeed(SPEEDS[(SPEEDS.indexOf(app.speed) + 1) % SPEEDS.length])});
   const time = element('span.time');
-  const number = element('span.number'), caption = element('span.caption'), detail = element('span.detail');
+  const number = element('span.number'), caption = element('span.caption'), lies = element('span.lies'), detail = element('span.detail');
   const modes = ['disassembly', 'assembly'].map(mode => element('button', {type: 'button', onclick: () => app.setMode(mode),
     title: mode === 'disassembly' ? 'Taking it apart (A)' : 'Putting it together (A)'},
     mode === 'disassembly' ? 'Take apart' : 'Put together'));
@@ -44,7 +44,7 @@ export function makeTransport(app) {
     oninput: () => app.setExplode(Number(explode.value))});
 
   const bar = element('section.transport', {'aria-label': 'Playback'},
-    element('div.words', {}, number, caption, detail),
+    element('div.words', {}, number, caption, lies, detail),
     element('div.bar', {}, iconButton('previous', 'Step back (left arrow)', () => app.stepBy(-1)), play,
       iconButton('next', 'Next step (right arrow)', () => app.stepBy(1)),
       element('div.track', {}, strip, head, range), time, speed),
@@ -85,6 +85,8 @@ export function makeTransport(app) {
     number.textContent = at < 0 ? `${counted(steps.length, 'step')}` : `Step ${at + 1} of ${steps.length}`;
     caption.textContent = over ? endOf(app) : captionOf(app, at);
     caption.title = at < 0 ? '' : steps[at].step.moves.map(m => m.part).join(', ');
+    const words = steps.length > 0 ? app.model.about(app.mode, Math.max(at, 0)).lies_words : undefined;
+    lies.textContent = words ? `lies: ${words}` : '';
     const forced = at < 0 ? undefined : steps[at].step.forced;
     detail.textContent = forced ? `${forced.accepted || 'forced'}: cuts in by ${shareOfSize(forced.depth, plan)} of the size` : '';
     detail.classList.toggle('bad', at >= 0 && isBad(steps[at].step));

@@ -32,7 +32,8 @@ Pose pose_at(const Track& track, double time) {
 CaseJson poses_json(const Plan& plan, const Assembly& assembly, Rng& rng) {
   CaseJson out = CaseJson::array();
   for (const bool apart : {true, false}) {
-    const Timeline line = timeline(apart ? plan.disassembly : plan.assembly_steps, assembly);
+    const Timeline line = apart ? timeline(plan.disassembly, assembly, disassembly_ups(plan))
+                                : timeline(plan.assembly_steps, assembly, assembly_ups(plan));
     for (const Track& track : line.tracks)
       for (int n = 0; n < 20; ++n) {
         const double time = rng.uniform(-1, double{line.duration} + 1);

@@ -254,6 +254,34 @@ test('best poses, forced steps and certificates, as plans to come may have them'
   await page.close();
 });
 
+test('the model lies as each step says, on the same ground, and the step says so', async () => {
+  const file = changedPlan(folder, 'stacked_box', 'lying', plan => plan.disassembly.forEach((step, k) => { if (k > 0) step.up = [0, 0, -1]; }));
+  const page = await open(browser, file), {assembly, disassembly, assembly_steps: back} = shelf.plan;
+  const lies = (mode, step, pose) => page.evaluate(([m, s, k]) => {
+    const d = window.dismantle;
+    d.setMode(m);
+    d.seek(d.timeOf(m, s, k));
+    return d.lies();
+  }, [mode, step, pose]);
+  const low = async () => (await page.evaluate(names => names.flatMap(n => {
+    const [lo, hi] = window.dismantle.box(n);
+    return [0, 1, 2, 3, 4, 5, 6, 7].map(c => window.dismantle.shownPoint(n, lo.map((x, k) => c >> k & 1 ? hi[k] : x))[2]);
+  }), assembly.parts.map(p => p.name))).reduce((a, b) => Math.min(a, b));
+  assert.deepEqual((await lies('disassembly', 0, 0)).map(x => x + 0), [0, 0, 0, 1, 0, 0, 0]);
+  assert.ok(Math.abs(await low() - assembly.bbox[0][2]) < 1e-6);
+  assert.match(await page.locator('.words .lies').textContent(), /^lies: as drawn/);
+  assert.ok(Math.abs((await lies('disassembly', 1, 0))[3]) < 1e-9);
+  assert.equal(await page.locator('.words .lies').textContent(), 'lies: upside down (-Z up)');
+  assert.match(await page.locator('.steps li.open').textContent(), /turn the assembly.*upside down/s);
+  // Backwards it lies alike, and when the last step ends all stands on the ground.
+  const {length: n} = disassembly;
+  assert.ok(Math.abs((await lies('assembly', 0, back[0].moves[0].poses.length - 1))[3]) < 1e-9);
+  assert.equal((await lies('assembly', n - 1, back[n - 1].moves[0].poses.length - 1))[3], 1);
+  assert.ok(Math.abs(await low() - assembly.bbox[0][2]) < 1e-6);
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+});
+
 onPage('help, theme, up axis, fading, paths', () => shelf.file, async page => {
   const state = () => page.evaluate('window.dismantle.state()');
   await page.keyboard.press('?');

@@ -22,8 +22,9 @@ std::array<double, 7> numbers_of(const Pose& p) {
   return {p.t.x(), p.t.y(), p.t.z(), p.q.w(), p.q.x(), p.q.y(), p.q.z()};
 }
 
-void append_rows(std::string& out, const char* animation, const std::vector<PlanStep>& all, const Assembly& assembly) {
-  const Timeline line = timeline(all, assembly);
+void append_rows(std::string& out, const char* animation, const std::vector<PlanStep>& all, const StepUps& ups,
+                 const Assembly& assembly) {
+  const Timeline line = timeline(all, assembly, ups);
   for (const StepTime& step : line.steps)
     for (const PlanMove& move : all[step.index].moves)
       for (std::size_t k = 0; k < move.poses.size(); ++k) {
@@ -36,8 +37,9 @@ void append_rows(std::string& out, const char* animation, const std::vector<Plan
 
 /// `checks_of`: what the objective says of a step.
 template <class ChecksOf>
-nlohmann::ordered_json poses_of(const std::vector<PlanStep>& all, const Assembly& assembly, ChecksOf checks_of) {
-  const Timeline line = timeline(all, assembly);
+nlohmann::ordered_json poses_of(const std::vector<PlanStep>& all, const StepUps& ups, const Assembly& assembly,
+                                ChecksOf checks_of) {
+  const Timeline line = timeline(all, assembly, ups);
   auto out = nlohmann::ordered_json::array();
   for (const StepTime& step : line.steps) {
     auto times = nlohmann::ordered_json::array(), moves = nlohmann::ordered_json::array();
@@ -57,8 +59,8 @@ nlohmann::ordered_json poses_of(const std::vector<PlanStep>& all, const Assembly
 
 std::string poses_csv(const Plan& plan, const Assembly& assembly) {
   std::string out = "animation,step,part,pose,time,x,y,z,qw,qx,qy,qz\n";
-  append_rows(out, "disassembly", plan.disassembly, assembly);
-  append_rows(out, "assembly", plan.assembly_steps, assembly);
+  append_rows(out, "disassembly", plan.disassembly, disassembly_ups(plan), assembly);
+  append_rows(out, "assembly", plan.assembly_steps, assembly_ups(plan), assembly);
   return out;
 }
 
@@ -66,9 +68,9 @@ std::string poses_json(const Plan& plan, const Assembly& assembly, const InputFr
   nlohmann::ordered_json out = {{"format", "dismantle.poses"}, {"version", 1}, {"source", plan.assembly.source}};
   out["unit"] = frame.unit_known ? nlohmann::ordered_json(frame.unit) : nlohmann::ordered_json(nullptr);
   out["disassembly"] = poses_of(
-      plan.disassembly, assembly, [](const PlanStep& s) -> const auto& { return s.checks; });
+      plan.disassembly, disassembly_ups(plan), assembly, [](const PlanStep& s) -> const auto& { return s.checks; });
   out["assembly"] = poses_of(
-      plan.assembly_steps,
+      plan.assembly_steps, assembly_ups(plan),
       assembly, [&](const PlanStep& s) -> const auto& { return checks_of_assembly_step(plan, s); });
   return json_text(out) + "\n";
 }

@@ -60,9 +60,9 @@ std::vector<std::uint8_t> to_glb(const Plan& plan, const Assembly& assembly, con
   GlbScene scene(plan, assembly, frame);
   std::map<std::vector<float>, std::size_t> clocks;
   GlbJson animations = GlbJson::array();
-  const auto add_animation = [&](const char* name, const std::vector<PlanStep>& steps) {
+  const auto add_animation = [&](const char* name, const std::vector<PlanStep>& steps, const StepUps& ups) {
     GlbJson samplers = GlbJson::array(), channels = GlbJson::array();
-    const Timeline line = timeline(steps, assembly);
+    const Timeline line = timeline(steps, assembly, ups);
     for (const Track& track : line.tracks) animate(track, scene, clocks, samplers, channels);
     if (channels.empty()) return;
     animations.push_back({{"name", name},
@@ -70,8 +70,8 @@ std::vector<std::uint8_t> to_glb(const Plan& plan, const Assembly& assembly, con
                           {"samplers", std::move(samplers)},
                           {"extras", {{"kind", name}, {"steps", step_times(line, assembly)}}}});
   };
-  add_animation("disassembly", plan.disassembly);
-  add_animation("assembly", plan.assembly_steps);
+  add_animation("disassembly", plan.disassembly, disassembly_ups(plan));
+  add_animation("assembly", plan.assembly_steps, assembly_ups(plan));
   return scene.file(plan, "disassembly", std::move(animations));
 }
 

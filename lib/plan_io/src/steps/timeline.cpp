@@ -16,6 +16,7 @@ namespace {
 /// The pace of an animation, seconds: a viewer can follow it.
 struct Pace {
   double before = 0.5, between = 0.3, after = 1.0;  // pauses: before the first step, between steps, after the last
+  double turning = 1.2;                             // pause in which the assembly is turned
   double shortest = 1.0, longest = 3.0;             // duration of a step
   double per_size = 1.5;                            // duration of a path as long as the assembly
 };
@@ -70,7 +71,23 @@ void append(std::vector<Key>& keys, float time, Pose pose) {
 
 }  // namespace
 
-Timeline timeline(const std::vector<PlanStep>& steps, const Assembly& assembly) {
+StepUps disassembly_ups(const Plan& plan) {
+  StepUps out;
+  for (const PlanStep& step : plan.disassembly) out.push_back(step.up);
+  return out;
+}
+
+StepUps assembly_ups(const Plan& plan) {
+  StepUps out;
+  const std::size_t n = plan.disassembly.size();
+  for (const PlanStep& step : plan.assembly_steps) {
+    out.push_back(step.up);
+    if (!step.up && step.step >= 1 && step.step <= n) out.back() = plan.disassembly[n - step.step].up;
+  }
+  return out;
+}
+
+Timeline timeline(const std::vector<PlanStep>& steps, const Assembly& assembly, const StepUps& ups) {
   Timeline out;
   const auto known = bodies_of(assembly);
   const double size = std::max(assembly.input_box.size().maxCoeff(), 1e-300);
@@ -90,6 +107,7 @@ Timeline timeline(const std::vector<PlanStep>& steps, const Assembly& assembly) 
     }
     const std::vector<double> way = way_of(step, bodies);
     const double duration = std::clamp(pace.per_size * way.back() / size, pace.shortest, pace.longest);
+    if (!out.steps.empty() && ups.at(s) != ups.at(out.steps.back().index)) now += pace.turning - pace.between;
     std::vector<float> times = pose_times(now, duration, way);
     for (std::size_t m = 0; m < bodies.size(); ++m) {
       Track& track = tracks[bodies[m].id];
