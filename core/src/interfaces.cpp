@@ -49,9 +49,6 @@ SequenceObserver::~SequenceObserver() = default;
 bool SequenceObserver::taken_back(std::size_t /*count*/) { return false; }
 SequencePlanner::~SequencePlanner() = default;
 StepCheck::~StepCheck() = default;
-StepVerdict StepCheck::estimate(const StepQuestion& question, const RunContext& context) const {
-  return judge(question, context);
-}
 StepVerdict StepCheck::judge_plan(std::span<const StepQuestion> /*operations*/, const RunContext& /*context*/) const {
   return {};
 }

@@ -19,26 +19,16 @@ Eigen::Vector3d last_direction(const Assembly& assembly, const std::vector<Place
   return Eigen::Vector3d::Zero();
 }
 
-template <class Ask>
-ObjectiveVerdict sum_of(const std::vector<ObjectiveItem>& items, Ask ask) {
-  ObjectiveVerdict all;
-  for (std::size_t k = 0; k < items.size(); ++k) {
-    all.verdicts.push_back(ask(*items[k].check));
-    const StepVerdict& verdict = all.verdicts.back();
-    all.cost += items[k].weight * verdict.cost;
-    if (items[k].require && !verdict.allowed && !all.refused) all.refused = k;
-  }
-  return all;
-}
-
 }  // namespace
 
-ObjectiveVerdict Objective::judge(const StepQuestion& question, const RunContext& context) const {
-  return sum_of(items, [&](const StepCheck& check) { return check.judge(question, context); });
-}
-
-ObjectiveVerdict Objective::estimate(const StepQuestion& question, const RunContext& context) const {
-  return sum_of(items, [&](const StepCheck& check) { return check.estimate(question, context); });
+ObjectiveVerdict Objective::judge(const StepQuestion& question, const RunContext& context, Ask ask) const {
+  ObjectiveVerdict all;
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    all.verdicts.push_back((items[k].check.get()->*ask)(question, context));
+    all.cost += items[k].weight * all.verdicts.back().cost;
+    if (items[k].require && !all.verdicts.back().allowed && !all.refused) all.refused = k;
+  }
+  return all;
 }
 
 Operation::Operation(const Assembly& assembly, std::vector<PlacedPart> moved, std::vector<PlacedPart> present,

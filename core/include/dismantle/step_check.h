@@ -60,7 +60,7 @@ class DISMANTLE_API StepCheck {
   virtual StepVerdict judge(const StepQuestion& question, const RunContext& context) const = 0;
   /// What a search asks, for many steps of which few are taken: a check whose judge() takes more than a millisecond
   /// answers with an approximation, and says so in its traits. The plan states what judge() says.
-  virtual StepVerdict estimate(const StepQuestion& question, const RunContext& context) const;
+  virtual StepVerdict estimate(const StepQuestion& q, const RunContext& context) const { return judge(q, context); }
   /// Judges a plan as a whole, for checks that say so in their traits. `operations` are in the order of assembly.
   virtual StepVerdict judge_plan(std::span<const StepQuestion> operations, const RunContext& context) const;
 };
@@ -86,9 +86,9 @@ struct DISMANTLE_API Objective {
   std::vector<ObjectiveItem> items{};
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit; how the assembly lies
   bool empty() const { return items.empty(); }
-  ObjectiveVerdict judge(const StepQuestion& question, const RunContext& context) const;
-  /// The same by StepCheck::estimate().
-  ObjectiveVerdict estimate(const StepQuestion& question, const RunContext& context) const;
+  using Ask = StepVerdict (StepCheck::*)(const StepQuestion&, const RunContext&) const;
+  /// `ask`: StepCheck::judge(), or, in searches, StepCheck::estimate().
+  ObjectiveVerdict judge(const StepQuestion& question, const RunContext& context, Ask ask = &StepCheck::judge) const;
 };
 
 /// A removal as an assembly operation. `path`: of the removal, columns as `moved`; the parts start from `moved`.

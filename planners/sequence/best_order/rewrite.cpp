@@ -126,7 +126,7 @@ double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, con
 double estimate_of(const std::vector<Removal>& plan, const SequenceQuery& query, const Eigen::Vector3d& up,
                    const RunContext& context) {
   return sum_of(plan, query, up, context,
-                [&](const StepQuestion& question) { return query.objective.estimate(question, context); });
+                [&](const StepQuestion& question) { return query.objective.judge(question, context, &StepCheck::estimate); });
 }
 
 Removal verified(const Step& step, const Disassembly& now, OrderScene& scene, std::vector<PartId>& blocked_by) {

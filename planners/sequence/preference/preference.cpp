@@ -16,7 +16,7 @@ Preference::Preference(const SequenceQuery& query) : assembly_(query.assembly), 
 
 double Preference::cost_alone(const StepQuestion& question, const RunContext& context) const {
   constexpr double kRefused = 1e12;  // above all costs, so that the others keep their order
-  const ObjectiveVerdict verdict = objective_.estimate(question, context);
+  const ObjectiveVerdict verdict = objective_.judge(question, context, &StepCheck::estimate);
   return verdict.cost + (verdict.refused ? kRefused : 0);
 }
 
