@@ -28,6 +28,8 @@ struct ExportFormat {
   std::string (*of_assembly)(const Plan&, const Assembly&, const InputFrame&);
   /// Not null: the format is a folder of several files, and `file` names it.
   std::vector<ExportedFile> (*of_folder)(const Plan&, const Assembly&, const InputFrame&) = nullptr;
+  /// Not null: distances are better with the parts' surfaces, if they are there.
+  std::string (*of_steps)(const Plan&, const InputFrame&, const GuidedDistances&) = nullptr;
 
   /// Lengths are metres, whatever the input has.
   bool in_metres() const { return binary || of_folder != nullptr; }
@@ -51,8 +53,8 @@ constexpr std::array kExportFormats{
     ExportFormat{"and-or-dot", "and_or.dot", "the same for Graphviz", false,
                  [](const Plan& p, const InputFrame&) { return and_or_dot(p); }, nullptr},
     ExportFormat{"bom-csv", "bom.csv", "bill of materials, a row each", false, nullptr, bom_csv},
-    ExportFormat{"steps-csv", "steps.csv", "steps of the assembly, a row each", false, steps_csv, nullptr},
-    ExportFormat{"markdown", "steps.md", "table of the steps", false, steps_markdown, nullptr},
+    ExportFormat{"steps-csv", "steps.csv", "steps of the assembly, a row each", false, nullptr, nullptr, nullptr, steps_csv},
+    ExportFormat{"markdown", "steps.md", "table of the steps", false, nullptr, nullptr, nullptr, steps_markdown},
     ExportFormat{"mjcf", "mjcf/", "a model for MuJoCo with a state for each step", false, nullptr, nullptr, to_mjcf},
     ExportFormat{"ros", "ros/", "a URDF and trajectories for ROS 2", false, nullptr, nullptr, to_ros},
 };
@@ -87,6 +89,26 @@ int write_folder(const std::vector<ExportedFile>& files, const std::filesystem::
   return kComplete;
 }
 
+Assembly assembly_for(const Plan& plan, const ExportOptions& options, Console& console) {
+  const Session session = reader(console);
+  RunContext context = context_of(session, console);
+  return stoppable(context, [&] {
+    return session.assembly_of(plan, source_of(plan, options.plan, options.assembly), context);
+  });
+}
+
+/// Empty, with a warning, if the input is not there; one that the user names has to be.
+GuidedDistances distances_of(const Plan& plan, const ExportOptions& options, Console& console) {
+  if (!options.assembly.empty()) return guided_distances(plan, assembly_for(plan, options, console));
+  try {
+    return guided_distances(plan, assembly_for(plan, options, console));
+  } catch (const InputError& e) {
+    console.warning(fmt::format("distances are the lengths of the verified paths, because the input cannot be used: {}",
+                                e.what()));
+    return {};
+  }
+}
+
 int export_plan(const ExportOptions& options) {
   Console console(options.console);
   const ExportFormat* format = nullptr;
@@ -103,10 +125,9 @@ int export_plan(const ExportOptions& options) {
                                            : std::filesystem::path(options.output);
 
   if (format->of_plan != nullptr) return write_text(format->of_plan(plan, frame), target, to_stdout, console);
-  const Session session = reader(console);
-  RunContext context = context_of(session, console);
-  const Assembly assembly = stoppable(
-      context, [&] { return session.assembly_of(plan, source_of(plan, options.plan, options.assembly), context); });
+  if (format->of_steps != nullptr)
+    return write_text(format->of_steps(plan, frame, distances_of(plan, options, console)), target, to_stdout, console);
+  const Assembly assembly = assembly_for(plan, options, console);
   if (format->in_metres() && !frame.unit_known)
     console.warning(fmt::format("the files do not name their unit: {} is assumed; --unit names another", frame.unit));
   if (format->of_folder == nullptr)
@@ -138,8 +159,8 @@ void add_export(CLI::App& app, Action& action) {
   add_frame(*command, options->frame);
   add_verbosity(*command, options->console);
   command->footer(table +
-                  "Poses, glTF, the bill of materials and folders need the input of the plan; all else is made from "
-                  "the plan alone.\n"
+                  "Poses, glTF, the bill of materials and folders need the input of the plan, the steps use it if it is there;\n"
+                  "all else is made from the plan alone.\n"
                   "Examples:\n"
                   "  dismantle export out/plan.json --format poses-csv\n"
                   "  dismantle export out/plan.json --format and-or-dot -o - | dot -Tsvg > and_or.svg");

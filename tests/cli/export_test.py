@@ -103,8 +103,9 @@ class Export(WithPlan):
         self.assert_fails(3, "is no unit of length", "export", "out/plan.json", "--format", "glb", "--unit", "parsec")
         self.assert_fails(2, "name a file with -o", "export", "out/plan.json", "--format", "glb", "-o", "-")
         self.assert_fails(3, "is a folder", "export", "out", "--format", "markdown")
+        self.assertIn("nothing is beside the part", self.export("markdown"))
         os.rename(self.path("box"), self.path("moved"))
-        self.export("markdown")
+        self.assertIn("lengths of the verified paths", self.export("markdown"))
         self.assert_fails(3, "name it with --assembly", "export", "out/plan.json", "--format", "poses-csv")
         self.run_program("export", "out/plan.json", "--format", "poses-csv", "--assembly", "moved", status=0)
 

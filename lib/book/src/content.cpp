@@ -14,6 +14,7 @@
 #include "dismantle/plan_io/step_numbers.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/text_columns.h"
+#include "dismantle/plan_io/travel.h"
 #include "dismantle/plan_io/verdicts.h"
 
 namespace dismantle {
@@ -192,10 +193,11 @@ class ContentWriter {
                                        : fmt::format("{} × {}", n, content_.items[item].name));
       }
       const MotionSummary motion = summarize_motion(mover.poses, mover.center, leg_tolerance(size_));
+      const std::optional<double> guided = guided_distance_of(step, mover, motion);
       const std::string who = step.movers.size() > 1 ? names_of(mover.parts) + ": " : "";
-      page.motions.push_back(who + motion_words(in_unit(motion, unit_.factor), unit_.name, frame_.y_up,
-                                                      frame_.lies(step.up)));
-      add_vectors(motion, who, page.facts);
+      page.motions.push_back(
+          who + travel_words(motion, guided, {unit_, frame_.y_up, size_, options_.disassembly}, frame_.lies(step.up)));
+      add_vectors(motion, guided, who, page.facts);
     }
     if (step.movers.empty()) page.motions.emplace_back("it is apart already: nothing has to move");
     if (step.up) {
@@ -221,13 +223,29 @@ class ContentWriter {
     if (!options_.disassembly) page.facts.emplace_back("disassembly", fmt::format("step {}", step.step));
   }
 
-  void add_vectors(const MotionSummary& motion, const std::string& who, Facts& facts) const {
+  /// None for what is not one straight motion by which parts join or leave.
+  std::optional<double> guided_distance_of(const BookStep& step, const BookMover& mover,
+                                           const MotionSummary& motion) const {
+    if (step.shifts_only || step.movers.size() != 1 || !is_straight(motion)) return std::nullopt;
+    PosedParts moving, fixed;
+    for (const std::size_t i : mover.parts)
+      moving.emplace_back(i, options_.disassembly ? mover.poses.front() : mover.poses.back());
+    for (const PlacedPart& part : step.standing) fixed.emplace_back(part.part, part.pose);
+    const Eigen::Vector3d outwards = (options_.disassembly ? 1 : -1) * motion.legs.front();
+    return std::min(guided_distance(assembly_, moving, fixed, outwards), motion.length);
+  }
+
+  void add_vectors(const MotionSummary& motion, std::optional<double> guided, const std::string& who,
+                   Facts& facts) const {
     if (motion.length > 0 && motion.displacement.norm() > 1e-6 * size_) {
       const Eigen::Vector3d d = motion.displacement.normalized();
       const auto rounded = [](double x) { return std::round(1000 * x) / 1000 + 0.0; };
       facts.emplace_back("direction",
                          fmt::format("{}({}, {}, {})", who, rounded(d.x()), rounded(d.y()), rounded(d.z())));
-      facts.emplace_back("distance", who + length_of(motion.displacement.norm()));
+      if (!guided)
+        facts.emplace_back("distance", who + length_of(motion.displacement.norm()));
+      else if (const double distance = stated_distance(motion, guided, size_); distance > 0)
+        facts.emplace_back("distance", who + length_of(distance));
     }
     if (motion.length > 1.01 * motion.displacement.norm())
       facts.emplace_back("length of the path", who + length_of(motion.length));

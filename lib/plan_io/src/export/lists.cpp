@@ -133,7 +133,7 @@ std::string bom_csv(const Plan& plan, const Assembly& assembly, const InputFrame
   return out;
 }
 
-std::string steps_csv(const Plan& plan, const InputFrame& frame) {
+std::string steps_csv(const Plan& plan, const InputFrame& frame, const GuidedDistances& guided) {
   const PlanAssembly& a = plan.assembly;
   const TextUnit unit = frame.unit_known ? text_unit(frame.unit, a.box) : TextUnit{"", 1};
   const double size = a.box.empty() ? 1 : std::max(a.box.size().maxCoeff(), 1e-300);
@@ -150,14 +150,14 @@ std::string steps_csv(const Plan& plan, const InputFrame& frame) {
     if (!step.moves.empty()) {
       std::vector<Pose> poses = step.moves.front().poses;
       std::reverse(poses.begin(), poses.end());
-      const MotionSummary summary =
-          in_unit(summarize_motion(poses, point_on_axis(poses, middle), leg_tolerance(size)), unit.factor);
-      motion = motion_words(summary, unit.name, frame.y_up, frame.lies(step.up));
+      const MotionSummary summary = summarize_motion(poses, point_on_axis(poses, middle), leg_tolerance(size));
+      const std::optional<double> led = guided.empty() ? std::nullopt : guided.at(k);
+      motion = travel_words(summary, led, {unit, frame.y_up, size, false}, frame.lies(step.up));
       if (!summary.legs.empty()) {
         const Eigen::Vector3d last = summary.legs.back().normalized();
         direction = fmt::format("{:.6f},{:.6f},{:.6f}", last.x() + 0.0, last.y() + 0.0, last.z() + 0.0);
       }
-      travel = figure_text(summary.length);
+      travel = figure_text(unit.factor * stated_distance(summary, led, size));
       turn = figure_text(summary.turn * 180 / std::numbers::pi);
     }
     out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", step_number(plan, k, false), csv_field(listed(parts)),

@@ -71,7 +71,7 @@ std::string details(const Plan& plan) {
 
 }  // namespace
 
-std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
+std::string steps_markdown(const Plan& plan, const InputFrame& frame, const GuidedDistances& guided) {
   const PlanAssembly& a = plan.assembly;
   const TextUnit unit = frame.unit_known ? text_unit(frame.unit, a.box) : TextUnit{"units", 1};
   const double size = a.box.empty() ? 1 : std::max(a.box.size().maxCoeff(), 1e-300);
@@ -94,7 +94,8 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
       if (!step.moves.empty()) {
         const std::vector<Pose>& poses = step.moves.front().poses;
         const MotionSummary summary = summarize_motion(poses, point_on_axis(poses, middle), leg_tolerance(size));
-        motion = motion_words(in_unit(summary, unit.factor), unit.name, frame.y_up, frame.lies(step.up));
+        motion = travel_words(summary, guided.empty() ? std::nullopt : guided.at(k), {unit, frame.y_up, size, true},
+                              frame.lies(step.up));
       }
       const std::string what = step.separates.empty() ? " (shifted, stays)" : "";
       std::string cuts;
@@ -110,8 +111,10 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
     }
     out +=
         "\nSteps have their numbers in the disassembly; in the assembly, which is the same backwards, they have those of the "
-        "second column. Motions are those of the first part named, at the assembly's middle, or on the axis about which it "
-        "turns.\n";
+        "second column. Motions are those of the first part named, at the assembly's middle, or on the axis about which "
+        "it turns; ";
+    out += guided.empty() ? "distances are the lengths of the verified paths, on which the hulls of the parts come apart.\n"
+                          : "the distance of a straight motion is that to where nothing is beside the part any more.\n";
     out += forced_reasons(plan) + details(plan);
   }
   if (!plan.remaining.empty()) out += fmt::format("\nStays: {}.\n", markdown_text(text::joined(plan.remaining)));

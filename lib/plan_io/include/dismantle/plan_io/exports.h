@@ -8,6 +8,7 @@
 #include "dismantle/export.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/input_frame.h"
+#include "dismantle/plan_io/travel.h"
 
 namespace dismantle {
 
@@ -33,16 +34,17 @@ DISMANTLE_API std::string and_or_json(const Plan& plan);
 DISMANTLE_API std::string and_or_dot(const Plan& plan);
 
 /// Tables of GitHub's Markdown: the steps with direction, distance and what they wait for; what stays and what is
-/// unsolved.
-DISMANTLE_API std::string steps_markdown(const Plan& plan, const InputFrame& frame);
+/// unsolved. Distances are the guided ones where they are known, else those of the verified paths, and the text says so.
+DISMANTLE_API std::string steps_markdown(const Plan& plan, const InputFrame& frame, const GuidedDistances& guided = {});
 
 /// Bill of materials, RFC 4180: a row for each kept component's product and each shape: item (from 1), count, name (of
 /// the product, or of the first part), kind, size, length_x, length_y, length_z (of the box as assembled), unit, parts
 /// (names with semicolons between). @throws InputError when the plan does not belong to the assembly.
 DISMANTLE_API std::string bom_csv(const Plan& plan, const Assembly& assembly, const InputFrame& frame);
 /// The steps of the assembly, RFC 4180: step, parts (names with semicolons between), motion (in words), x, y, z (unit
-/// vector of the last stretch of the insertion), travel (of the first part's path), turn_degrees, unit, waits_for (steps
+/// vector of the last stretch of the insertion), travel (the guided distance if it is known, else the length of the first
+/// part's path), turn_degrees, unit, waits_for (steps
 /// with semicolons between; "unknown" if the plan does not say), forced_depth (empty: not forced), notes.
-DISMANTLE_API std::string steps_csv(const Plan& plan, const InputFrame& frame);
+DISMANTLE_API std::string steps_csv(const Plan& plan, const InputFrame& frame, const GuidedDistances& guided = {});
 
 }  // namespace dismantle
