@@ -55,13 +55,21 @@ void draw_pairs(AssemblyCheck&, const Assembly&, const Check&, const RunContext&
 }
 #endif
 
+/// What an exit status other than 0 is about.
+nlohmann::ordered_json reason(const AssemblyCheck& check, bool usable) {
+  if (!usable) return "unusable_input";
+  if (!check.sound()) return "errors_found";
+  return nullptr;
+}
+
 int finish(const AssemblyCheck& check, const Check& options, bool usable, Console& console) {
   console.end_progress();
   console.text(findings_text(check, options.input, options.console.verbose));
   if (options.console.quiet)
     for (const Finding& finding : check.findings)
       if (finding.severity == Severity::error) console.error(finding.message);
-  nlohmann::ordered_json json = {{"status", usable ? "complete" : "error"}};
+  nlohmann::ordered_json json = {{"status", usable ? "complete" : "error"},
+                                 {"reason", reason(check, usable)}};
   json.update(nlohmann::ordered_json::parse(findings_json(check)));
   console.result(std::move(json));
   if (!usable) return kBadInput;

@@ -84,6 +84,7 @@ int diff(const DiffOptions& options) {
   }
   console.end_progress();
   json["differ"] = parts_differ || steps_differ;
+  json["reason"] = parts_differ || steps_differ ? nlohmann::ordered_json("differ") : nlohmann::ordered_json();
   console.text(text);
   console.result(std::move(json));
   return parts_differ || steps_differ ? kPartial : kComplete;

@@ -160,7 +160,7 @@ int refused(const StepRefused& e, const PlanEdit& edit, const StepNumbers& steps
   const std::size_t index = edit.order[e.step()];
   console.text(fmt::format("refused: {} of the plan is not possible there: {}\nnothing was written\n",
                            steps.name(index), e.reason()));
-  console.result({{"status", "refused"}, {"step", steps.number(index)}, {"message", e.reason()}, {"plan", nullptr}});
+  console.result({{"status", "refused"}, {"reason", "refused"}, {"step", steps.number(index)}, {"message", e.reason()}, {"plan", nullptr}});
   return kPartial;
 }
 

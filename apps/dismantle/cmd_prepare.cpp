@@ -39,6 +39,7 @@ int prepare(const Prepare& options) {
   for (const ExcludedPart& part : assembly.excluded)
     if (!part.by_choice) unusable.push_back(part.name);
   console.result({{"status", unusable.empty() ? "complete" : "partial"},
+                  {"reason", unusable.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json("unusable")},
                   {"parts", assembly.parts.size()},
                   {"excluded", assembly.excluded.size()},
                   {"unusable", unusable},

@@ -136,6 +136,7 @@ int replay_order(const ReplayOptions& options) {
   text += fmt::format("{} of {} insertions of the order are possible, {} refused\n", items.size() - refused,
                       items.size(), refused);
   nlohmann::ordered_json json = {{"status", refused == 0 ? "complete" : "partial"},
+                                 {"reason", refused == 0 ? nlohmann::ordered_json() : nlohmann::ordered_json("refused")},
                                  {"parts", assembly.parts.size()},
                                  {"steps", assembly.reference_order.size()},
                                  {"possible", items.size() - refused},

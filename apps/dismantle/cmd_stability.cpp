@@ -216,7 +216,9 @@ int stability(const Stability& asked) {
     file["certificate"] = Json::parse(statics::certificate_json(report, assembly));
     write_file(std::filesystem::path(asked.folder) / "stability.json", file.dump(1) + "\n");
   }
-  Json result = {{"status", stands || held ? "complete" : "partial"}, {"parts", assembly.parts.size()}};
+  Json result = {{"status", stands || held ? "complete" : "partial"},
+                 {"reason", stands || held ? Json() : Json("does_not_stand")},
+                 {"parts", assembly.parts.size()}};
   result.update(json);
   console.result(std::move(result));
   return stands || held ? kComplete : kPartial;
@@ -258,7 +260,10 @@ int verify_stability(const std::filesystem::path& file, const std::string& input
                                : fmt::format("{}: NOT VALID: {}\n", file.string(), wrong));
     Json problems = Json::array();
     if (!wrong.empty()) problems.push_back({{"message", wrong}});
-    console.result({{"status", wrong.empty() ? "complete" : "invalid"}, {"verdict", verdict}, {"problems", problems}});
+    console.result({{"status", wrong.empty() ? "complete" : "invalid"},
+                    {"reason", wrong.empty() ? Json() : Json("invalid")},
+                    {"verdict", verdict},
+                    {"problems", problems}});
     return wrong.empty() ? kComplete : kPartial;
   } catch (const nlohmann::json::exception& e) {
     throw InputError(file.string(), e.what());

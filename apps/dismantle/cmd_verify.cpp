@@ -3,6 +3,7 @@
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/summary.h"
+#include "dismantle/plan_report.h"
 #include "dismantle/report_text.h"
 #include "dismantle/settings.h"
 #include "dismantle/stability_file.h"
@@ -32,6 +33,8 @@ int verify(const Verify& options) {
   auto problems = nlohmann::ordered_json::array();
   for (const auto& p : check.problems) problems.push_back({{"step", p.step}, {"message", p.message}});
   console.result({{"status", check.valid ? result_word(plan) : "invalid"},
+                  {"reason", check.valid ? reason_of(plan) : nlohmann::ordered_json("invalid")},
+                  {"asked", asked_json(plan.asked)},
                   {"parts", assembly.parts.size()},
                   {"steps", plan.disassembly.size()},
                   {"max_penetration", check.max_penetration},

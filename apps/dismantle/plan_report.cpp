@@ -42,6 +42,20 @@ std::vector<std::string> unusable_parts(const Plan& plan) {
   return names;
 }
 
+nlohmann::ordered_json reason_of(const Plan& plan) {
+  if (plan.succeeded()) return nullptr;
+  if (plan.status == PlanStatus::partial) return "parts_left";
+  return plan.status == PlanStatus::forced ? "forced" : "unusable";
+}
+
+nlohmann::ordered_json asked_json(const PlanAsked& asked) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::object();
+  if (!asked.part.empty()) out["part"] = asked.part;
+  if (!asked.target.empty()) out["target"] = asked.target;
+  if (!asked.together.empty()) out["together"] = asked.together;
+  return out;
+}
+
 int status_of(const RunResult& result, const RunContext& context) {
   if (result.plan.succeeded()) return kComplete;
   if (result.plan.status == PlanStatus::partial && context.cancel.cancelled()) return kInterrupted;
@@ -53,7 +67,11 @@ nlohmann::ordered_json result_json(const RunResult& result, int status, const fs
   const std::string words = status == kInterrupted    ? "interrupted"
                             : status == kPluginFailed ? "error"
                                                       : result_word(result.plan);
+  nlohmann::ordered_json reason = reason_of(result.plan);
+  if (status == kInterrupted || status == kPluginFailed) reason = status == kInterrupted ? "interrupted" : "plugin_failed";
   nlohmann::ordered_json out = {{"status", words},
+                                {"reason", std::move(reason)},
+                                {"asked", asked_json(result.plan.asked)},
                                 {"parts", parts},
                                 {"steps", result.plan.disassembly.size()},
                                 {"forced", result.plan.forced_steps()},

@@ -18,10 +18,14 @@ class Asked(CliTest):
     def agree(self, status, word, text, *options):
         """Plans, and checks that plan, verify, explain, page, book and Markdown say the same."""
         done = self.run_program("plan", "in", *QUICK, *options, "-o", "out", "--format", "json", status=status)
-        self.assertEqual(self.result_of(done)["status"], word)
+        result = self.result_of(done)
+        self.assertEqual(result["status"], word)
+        self.assertEqual(result["reason"] is None, status == 0)
+        self.assertEqual(result["asked"], json.loads(self.read("out", "plan.json")).get("asked", {}))
         self.assertIn(text, done.stderr)
         verified = self.run_program("verify", "out/plan.json", "--format", "json", status=status)
-        self.assertEqual(self.result_of(verified)["status"], word)
+        for key, value in (("status", word), ("reason", result["reason"]), ("asked", result["asked"])):
+            self.assertEqual(self.result_of(verified)[key], value)
         self.assertIn(text, verified.stderr)
         explained = self.run_program("explain", "out/plan.json", "--format", "json", status=0)
         self.assertEqual(self.result_of(explained)["status"], word)
