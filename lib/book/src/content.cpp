@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/explain.h"
@@ -43,36 +44,100 @@ class ContentWriter {
         frame_(options.frame),
         unit_(frame_.unit_known ? text_unit(frame_.unit, assembly.input_box) : TextUnit{"units", 1}),
         size_(assembly.input_box.empty() ? 1 : assembly.input_box.size().maxCoeff()) {
+    content_.chapters = instructions(plan_, assembly_, options_.disassembly);
+    if (content_.chapters.empty())
+      throw InputError(plan_.assembly.source, "the plan has no steps, so there is nothing to instruct");
     find_items(shapes);
   }
 
   BookContent write() {
-    content_.chapters = instructions(plan_, assembly_, options_.disassembly);
-    if (content_.chapters.empty())
-      throw InputError(plan_.assembly.source, "the plan has no steps, so there is nothing to instruct");
     write_title();
     for (const BookChapter& chapter : content_.chapters)
       for (std::size_t s = 0; s < chapter.steps.size(); ++s) add_page(chapter, s);
     std::ranges::sort(content_.pages, {}, &BookPage::number);
+    write_contents();
     return std::move(content_);
   }
 
  private:
+  /// By part: does the book put it in, take it out, or begin with it alone? Others stay together with their neighbours.
+  std::vector<bool> handled() const {
+    std::vector<bool> out(assembly_.parts.size());
+    for (const BookChapter& chapter : content_.chapters) {
+      for (const BookStep& step : chapter.steps)
+        if (!step.shifts_only)
+          for (const BookMover& mover : step.movers)
+            for (const std::size_t i : mover.parts) out[i] = true;
+      std::vector<std::string> base;
+      for (const std::size_t i : chapter.base) base.push_back(assembly_.parts[i].name);
+      const std::size_t products = text::take_components(plan_.assembly, base).size();
+      if (products + base.size() == 1)
+        for (const std::size_t i : chapter.base) out[i] = true;
+    }
+    return out;
+  }
+
   void find_items(const std::vector<geometry::ShapePlacement>& shapes) {
+    item_of_.resize(assembly_.parts.size());
+    std::vector<bool> listed_here = handled();
+    std::vector<std::string> rest;
+    for (std::size_t i = 0; i < assembly_.parts.size(); ++i)
+      if (!listed_here[i]) rest.push_back(assembly_.parts[i].name);
+    if (!rest.empty())
+      content_.base =
+          fmt::format("{} that stay together are not listed: {}", text::counted(rest.size(), "part"), listed(rest));
+    find_products(listed_here);
     std::map<std::size_t, std::size_t> item_of_shape;
     for (std::size_t i = 0; i < assembly_.parts.size(); ++i) {
+      if (!listed_here[i]) continue;
       const auto [it, fresh] = item_of_shape.try_emplace(shapes[i].original, content_.items.size());
-      if (fresh) content_.items.push_back({content_.items.size() + 1, {}, {}, {}});
-      content_.items[it->second].parts.push_back(i);
-      item_of_.push_back(it->second);
+      if (fresh) add_item({{i, Pose{}}});
+      BookItem& item = content_.items[it->second];
+      item.names.push_back(assembly_.parts[i].name);
+      item_of_[i] = it->second;
     }
-    for (BookItem& item : content_.items) {
-      std::vector<std::string> names;
-      for (const std::size_t i : item.parts) names.push_back(assembly_.parts[i].name);
-      item.name = common_name(names);
-      const Eigen::Vector3d box =
-          assembly_.parts[item.parts.front()].mesh->box().size() / assembly_.normalization.scale;
-      item.size = size_text(box);
+    for (BookItem& item : content_.items)
+      if (item.name.empty()) item.name = common_name(item.names);
+  }
+
+  /// Products whose bodies the file keeps together; takes their bodies out of `parts`.
+  void find_products(std::vector<bool>& parts) {
+    std::map<std::string, std::size_t> index, item_of_product;
+    for (std::size_t i = 0; i < assembly_.parts.size(); ++i) index.emplace(assembly_.parts[i].name, i);
+    for (const PlanComponent& component : plan_.assembly.components) {
+      std::vector<PlacedPart> bodies;
+      for (const std::string& name : component.parts)
+        if (const auto known = index.find(name); known != index.end() && parts[known->second])
+          bodies.push_back({known->second, Pose{}});
+      if (!component.kept || bodies.size() != component.parts.size()) continue;
+      for (const PlacedPart& body : bodies) parts[body.part] = false;
+      const auto [it, fresh] = item_of_product.try_emplace(component.product, content_.items.size());
+      if (fresh) {
+        add_item(std::move(bodies));
+        content_.items.back().name = component.product;
+      }
+      content_.items[it->second].names.push_back(component.name);
+      item_of_component_.emplace(component.name, it->second);
+    }
+  }
+
+  void add_item(std::vector<PlacedPart> picture) {
+    Aabb box;
+    for (const PlacedPart& placed : picture) box.extend(assembly_.parts[placed.part].mesh->box());
+    content_.items.push_back(
+        {content_.items.size() + 1, {}, {}, std::move(picture), size_text(box.size() / assembly_.normalization.scale)});
+  }
+
+  void write_contents() {
+    const std::size_t few = 6;  // pages of steps that are found by leafing
+    if (content_.pages.size() < few) return;
+    for (std::size_t k = 0; k < content_.pages.size(); ++k) {
+      const BookPage& page = content_.pages[k];
+      if (content_.chapters.size() > 1 && (k == 0 || content_.pages[k - 1].chapter != page.chapter))
+        content_.contents.push_back({page.chapter, k, true});
+      std::string what;
+      for (const auto& [item, words] : page.moving) what += (what.empty() ? "" : ", ") + words;
+      content_.contents.push_back({fmt::format("{}  {}: {}", page.number, page.verb, what), k, false});
     }
   }
 
@@ -85,8 +150,10 @@ class ContentWriter {
       if (source.extension() == ending) title = source.stem().string();
     content_.title = options_.title.empty() ? title : options_.title;
     content_.subtitle = options_.disassembly ? "How to take it apart" : "How to put it together";
-    content_.facts.emplace_back("parts",
-                                fmt::format("{}, {}", a.parts.size(), text::counted(content_.items.size(), "shape")));
+    std::size_t units = 0;
+    for (const BookItem& item : content_.items) units += item.names.size();
+    content_.facts.emplace_back("parts", fmt::format("{}, {}", units, text::counted(content_.items.size(), "shape")));
+    if (!content_.base.empty()) content_.facts.emplace_back("", content_.base);
     content_.facts.emplace_back("steps", std::to_string(plan_.disassembly.size()));
     if (!a.box.empty()) {
       content_.facts.emplace_back("size", size_text(a.box.size()));
@@ -180,12 +247,23 @@ class ContentWriter {
       for (const std::size_t i : mover.parts) singles.push_back(assembly_.parts[i].name);
       const std::vector<const PlanComponent*> whole = text::take_components(plan_.assembly, singles);
       std::map<std::size_t, std::size_t> of_item;
+      std::vector<std::string> others;
       for (const std::size_t i : mover.parts)
-        if (std::ranges::find(singles, assembly_.parts[i].name) != singles.end()) ++of_item[item_of_[i]];
+        if (std::ranges::find(singles, assembly_.parts[i].name) != singles.end()) {
+          if (item_of_[i])
+            ++of_item[*item_of_[i]];
+          else
+            others.push_back(assembly_.parts[i].name);
+        }
       if (const BookChapter* built = chapter_of(mover.parts)) {
         page.moving.emplace_back(0, fmt::format("{} ({} parts)", chapter_name(*built), built->parts.size()));
       } else {
-        for (const PlanComponent* c : whole) page.moving.emplace_back(0, c->name);
+        for (const PlanComponent* c : whole) {
+          const auto item = item_of_component_.find(c->name);
+          page.moving.emplace_back(
+              item == item_of_component_.end() ? 0 : content_.items[item->second].number, c->name);
+        }
+        for (const std::string& name : others) page.moving.emplace_back(0, name);
         for (const auto& [item, n] : of_item)
           page.moving.emplace_back(content_.items[item].number,
                                    n == 1 && mover.parts.size() == 1
@@ -257,7 +335,8 @@ class ContentWriter {
   const InputFrame frame_;
   const TextUnit unit_;
   const double size_;
-  std::vector<std::size_t> item_of_;  // by part
+  std::vector<std::optional<std::size_t>> item_of_;  // by part; none: it has no item of its own
+  std::map<std::string, std::size_t> item_of_component_;
   BookContent content_;
 };
 

@@ -13,12 +13,20 @@ namespace dismantle {
 
 using Facts = std::vector<std::pair<std::string, std::string>>;  // name, value
 
-/// Parts of one shape.
+/// What the book puts in or takes out, and counts as one: parts of one shape, or a product that is kept together.
 struct BookItem {
-  std::size_t number = 0;  ///< from 1
-  std::string name;        ///< common beginning of all names, or the first name
-  std::vector<std::size_t> parts;
-  std::string size;  ///< of the bounding box, with unit
+  std::size_t number = 0;           ///< from 1
+  std::string name;                 ///< common beginning of all names, or the first name, or the product
+  std::vector<std::string> names;   ///< of the parts, or of the uses of the product
+  std::vector<PlacedPart> picture;  ///< one part, or the bodies of one product
+  std::string size;                 ///< of the bounding box, with unit
+};
+
+/// A line of the table of contents: a step, or the name of what the steps after it build.
+struct ContentsLine {
+  std::string words;
+  std::size_t page = 0;  ///< index into BookContent::pages
+  bool heading = false;
 };
 
 struct BookPage {
@@ -38,6 +46,8 @@ struct BookContent {
   Facts facts;
   std::vector<std::string> warnings;
   std::vector<BookItem> items;
+  std::string base;  ///< what the book leaves together and does not list, in words; empty: nothing
+  std::vector<ContentsLine> contents;  ///< empty: too few pages for it
   std::vector<BookChapter> chapters;
   std::vector<BookPage> pages;  ///< by number; `step` points into `chapters`
 };

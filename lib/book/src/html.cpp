@@ -35,10 +35,12 @@ dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
 .number { font-size: 44px; font-weight: 700; line-height: 1; }
 .do { font-size: 19px; margin: 10px 0; } .do .what { font-weight: 600; overflow-wrap: anywhere; }
 .motion { font-weight: 600; color: var(--accent); }
+.contents { columns: 2; column-gap: 34px; font-size: 14px; } .contents p { margin: 2px 0; overflow-wrap: anywhere; break-inside: avoid; }
+.contents a { color: inherit; text-decoration: none; } .contents .heading { font-weight: 600; margin-top: 8px; break-after: avoid; }
 .after { border: 1px solid var(--line); border-radius: 6px; padding: 6px; margin-top: 12px; }
 .after p { font-size: 13px; color: var(--soft); margin: 0 0 4px; }
 @media (max-width: 760px) { .step, .title { grid-template-columns: 1fr; } section { padding: 18px; } }
-@media print { @page { size: A4 landscape; margin: 9mm; } body { background: none; }
+@media print { @page { size: A4 landscape; margin: 9mm 9mm 12mm; @bottom-right { content: counter(page); font: 9pt sans-serif; } } body { background: none; }
   section { margin: 0; max-width: none; box-shadow: none; padding: 0; break-after: page; } section:last-child { break-after: auto; } }
 )";
 }
@@ -57,6 +59,16 @@ std::string facts_list(const Facts& facts) {
 
 std::string badge(std::size_t number) {
   return number == 0 ? "" : fmt::format("<span class=\"badge\">{}</span>", number);
+}
+
+/// A section, or nothing.
+std::string contents_list(const BookContent& content) {
+  if (content.contents.empty()) return {};
+  std::string out = "<section id=\"contents\"><h2>Contents</h2><div class=\"contents\">\n";
+  for (const ContentsLine& line : content.contents)
+    out += fmt::format("<p{}><a href=\"#step-{}\">{}</a></p>\n", line.heading ? " class=\"heading\"" : "",
+                       content.pages[line.page].number, escaped_markup(line.words));
+  return out + "</div></section>\n";
 }
 
 std::string step_page(const BookPage& page, const StepPictures& pictures, bool disassembly) {
@@ -99,16 +111,18 @@ std::string book_html(const Plan& plan, const Assembly& assembly, const BookOpti
   out += fmt::format("<section><h1>{}</h1><p class=\"soft\">{}</p>{}\n<div class=\"title\">{}{}</div>{}</section>\n",
                      escaped_markup(content.title), content.subtitle, warnings, img(fronts.whole, "the assembly"),
                      img(fronts.exploded, "the assembly, exploded"), facts_list(content.facts));
-  out += "<section><h2>Bill of materials</h2><div class=\"items\">\n";
+  out += contents_list(content);
+  out += "<section><h2>Bill of materials</h2>";
+  if (!content.base.empty()) out += fmt::format("<p class=\"soft\">{}</p>", escaped_markup(content.base));
+  out += "<div class=\"items\">\n";
   for (const BookItem& item : content.items) {
-    std::string names;
-    for (const std::size_t i : item.parts) names += (names.empty() ? "" : ", ") + assembly.parts[i].name;
+    const std::string names = fmt::format("{}", fmt::join(item.names, ", "));
     out += fmt::format(
         "<div class=\"item\"><span class=\"count\">{} ×</span>{}{}<div><strong>{}</strong></div>{}"
         "<div class=\"soft\">{}</div></div>\n",
-        item.parts.size(), badge(item.number), img(illustrator.part(item.parts.front()), item.name),
+        item.names.size(), badge(item.number), img(illustrator.scene(item.picture, illustrator.style().item), item.name),
         escaped_markup(item.name),
-        item.parts.size() > 1 ? fmt::format("<div class=\"soft\">{}</div>", escaped_markup(names)) : "",
+        item.names.size() > 1 ? fmt::format("<div class=\"soft\">{}</div>", escaped_markup(names)) : "",
         escaped_markup(item.size));
   }
   out += "</div></section>\n";

@@ -107,8 +107,6 @@ void Illustrator::ring_specks(Picture& picture, const std::vector<PlacedPart>& p
     picture.rings.emplace_back(box.center().head<2>(), radius + 0.02 * width);
 }
 
-Picture Illustrator::part(std::size_t index) const { return scene({{index, Pose{}}}, style_.item); }
-
 std::vector<PlacedPart> Illustrator::movers_at(const BookStep& step,
                                                const std::vector<std::size_t>& pose_indices) const {
   std::vector<PlacedPart> out;

@@ -58,8 +58,6 @@ class Illustrator {
 
   /// The parts at the given poses, from the usual viewpoint.
   Picture scene(const std::vector<PlacedPart>& parts, const PictureSize& size) const;
-  /// One part as assembled.
-  Picture part(std::size_t index) const;
   /// Two parts as assembled and a ring around the place `at`, input coordinates.
   Picture pair(PartId other, PartId marked, const Eigen::Vector3d& at) const;
   /// `scale`: factor for the style's sizes in pixels.

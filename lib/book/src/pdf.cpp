@@ -36,27 +36,22 @@ class PdfPages {
   PdfPages(const PdfPages&) = delete;
   PdfPages& operator=(const PdfPages&) = delete;
 
-  /// Draws text in a column of `width`, at most `most` high (an ellipsis replaces the rest). Returns its height.
+  /// Draws text in a column of `width`, at most `most` high: smaller than `size` if it needs to be, and only what does
+  /// not fit in the smallest type either is replaced by an ellipsis. Returns its height.
   double text(double x, double y, double width, const std::string& words, double size, const Eigen::Vector3d& colour,
               bool bold = false, double most = 400) {
-    const std::unique_ptr<PangoLayout, decltype(&g_object_unref)> layout(pango_cairo_create_layout(page_),
-                                                                         g_object_unref);
-    PangoFontDescription* font = pango_font_description_from_string("Sans");
-    pango_font_description_set_absolute_size(font, size * PANGO_SCALE);
-    if (bold) pango_font_description_set_weight(font, PANGO_WEIGHT_BOLD);
-    pango_layout_set_font_description(layout.get(), font);
-    pango_font_description_free(font);
-    pango_layout_set_width(layout.get(), static_cast<int>(width * PANGO_SCALE));
-    pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD_CHAR);
+    while (size > style_.smallest_type && height_of(width, words, size, bold) > most)
+      size = std::max(style_.smallest_type, 0.92 * size);
+    const auto layout = layout_of(width, words, size, bold);
     pango_layout_set_height(layout.get(), static_cast<int>(most * PANGO_SCALE));
     pango_layout_set_ellipsize(layout.get(), PANGO_ELLIPSIZE_END);
-    pango_layout_set_text(layout.get(), words.c_str(), static_cast<int>(words.size()));
     cairo_set_source_rgb(page_, colour[0], colour[1], colour[2]);
     cairo_move_to(page_, x, y);
     pango_cairo_show_layout(page_, layout.get());
-    int height = 0;
-    pango_layout_get_size(layout.get(), nullptr, &height);
-    return double(height) / PANGO_SCALE;
+    return height_in(layout.get());
+  }
+  double height_of(double width, const std::string& words, double size, bool bold) const {
+    return height_in(layout_of(width, words, size, bold).get());
   }
 
   /// Draws a list of facts, nothing of it below `bottom`. Returns its height.
@@ -86,7 +81,11 @@ class PdfPages {
     cairo_stroke(page_);
   }
 
-  void end_page() { cairo_show_page(page_); }
+  void end_page() {
+    const std::string number = std::to_string(++pages_);
+    text(style_.width - style_.margin - 30, style_.height - 24, 30, number, 9, style_.soft);
+    cairo_show_page(page_);
+  }
 
   std::string finish() {
     check_cairo(cairo_status(page_), "a page");
@@ -98,7 +97,28 @@ class PdfPages {
   const PageStyle& style() const { return style_; }
 
  private:
+  using Layout = std::unique_ptr<PangoLayout, decltype(&g_object_unref)>;
+
+  Layout layout_of(double width, const std::string& words, double size, bool bold) const {
+    Layout layout(pango_cairo_create_layout(page_), g_object_unref);
+    PangoFontDescription* font = pango_font_description_from_string("Sans");
+    pango_font_description_set_absolute_size(font, size * PANGO_SCALE);
+    if (bold) pango_font_description_set_weight(font, PANGO_WEIGHT_BOLD);
+    pango_layout_set_font_description(layout.get(), font);
+    pango_font_description_free(font);
+    pango_layout_set_width(layout.get(), static_cast<int>(width * PANGO_SCALE));
+    pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD_CHAR);
+    pango_layout_set_text(layout.get(), words.c_str(), static_cast<int>(words.size()));
+    return layout;
+  }
+  static double height_in(PangoLayout* layout) {
+    int height = 0;
+    pango_layout_get_size(layout, nullptr, &height);
+    return double(height) / PANGO_SCALE;
+  }
+
   PageStyle style_;
+  std::size_t pages_ = 0;  // that are done
   std::string bytes_;
   cairo_surface_t* surface_;
   cairo_t* page_;
@@ -120,7 +140,34 @@ void title_page(PdfPages& pdf, const BookContent& content, const BookPictures& f
   pdf.end_page();
 }
 
-void item_pages(PdfPages& pdf, const BookContent& content, const Assembly& assembly, const Illustrator& illustrator) {
+std::size_t item_page_count(const BookContent& content, const PageStyle& style) {
+  const auto per_page = static_cast<std::size_t>(style.item_columns * style.item_rows);
+  return (content.items.size() + per_page - 1) / per_page;
+}
+
+/// Two columns of lines with the numbers of their pages.
+void contents_pages(PdfPages& pdf, const BookContent& content) {
+  if (content.contents.empty()) return;
+  const PageStyle& style = pdf.style();
+  const double margin = style.margin, top = margin + 34, line_height = 15, gap = 30;
+  const double width = 0.5 * (style.width - 2 * margin - gap), number_width = 30;
+  const auto rows = static_cast<std::size_t>((style.height - margin - top) / line_height);
+  const std::size_t lines = content.contents.size() + 1, per_page = 2 * rows;
+  const std::size_t materials = 2 + (lines + per_page - 1) / per_page;  // number of that page; the title has 1
+  const std::size_t steps = materials + item_page_count(content, style);
+  for (std::size_t i = 0; i < lines; ++i) {
+    const std::size_t at = i % per_page;
+    if (at == 0) pdf.text(margin, margin, style.width - 2 * margin, "Contents", 19, style.text, true);
+    const double x = margin + (at < rows ? 0 : width + gap), y = top + double(at % rows) * line_height;
+    const ContentsLine line = i == 0 ? ContentsLine{"Bill of materials", 0, true} : content.contents[i - 1];
+    pdf.text(x + (line.heading ? 0 : 10), y, width - number_width - 10, line.words, 10, style.text, line.heading, 13);
+    pdf.text(x + width - number_width, y, number_width, std::to_string(i == 0 ? materials : steps + line.page), 10,
+             style.soft);
+    if (at + 1 == per_page || i + 1 == lines) pdf.end_page();
+  }
+}
+
+void item_pages(PdfPages& pdf, const BookContent& content, const Illustrator& illustrator) {
   const PageStyle& style = pdf.style();
   const double margin = style.margin;
   const int columns = style.item_columns, rows = style.item_rows;
@@ -129,19 +176,25 @@ void item_pages(PdfPages& pdf, const BookContent& content, const Assembly& assem
   const double w = (width - (columns - 1) * gap) / columns, h = (style.height - margin - top - (rows - 1) * gap) / rows;
   for (std::size_t i = 0; i < content.items.size(); ++i) {
     const std::size_t at = i % per_page;
-    if (at == 0) pdf.text(margin, margin, width, "Bill of materials", 19, style.text, true);
+    if (at == 0) {
+      pdf.text(margin, margin, 180, "Bill of materials", 19, style.text, true);
+      if (!content.base.empty()) pdf.text(margin + 190, margin + 4, width - 190, content.base, 9.5, style.soft, false, 26);
+    }
     const BookItem& item = content.items[i];
     const double x = margin + double(at % style.item_columns) * (w + gap),
                  y = top + double(at / style.item_columns) * (h + gap);
     pdf.frame(x, y, w, h);
     pdf.text(x + 6, y + 5, 40, fmt::format("({})", item.number), 11, style.text, true);
-    pdf.text(x + w - 46, y + 5, 42, fmt::format("{} ×", item.parts.size()), 11, style.text, true);
-    pdf.picture(illustrator.part(item.parts.front()), x + 6, y + 18, w - 12, h - 64);
-    std::string names;
-    for (const std::size_t part : item.parts) names += (names.empty() ? "" : ", ") + assembly.parts[part].name;
-    double line = y + h - 44;
-    line += pdf.text(x + 6, line, w - 12, item.name, 9.5, style.text, true, 12);
-    if (item.parts.size() > 1) line += pdf.text(x + 6, line, w - 12, names, 7.5, style.soft, false, 10);
+    pdf.text(x + w - 46, y + 5, 42, fmt::format("{} ×", item.names.size()), 11, style.text, true);
+    // Long names take from the picture.
+    const bool several = item.names.size() > 1;
+    const std::string names = fmt::format("{}", fmt::join(item.names, ", "));
+    const double name_height = std::min(pdf.height_of(w - 12, item.name, 9.5, true), 30.0);
+    const double names_height = several ? std::min(pdf.height_of(w - 12, names, 7.5, false), 30.0) : 0;
+    double line = y + h - name_height - names_height - 16;
+    pdf.picture(illustrator.scene(item.picture, illustrator.style().item), x + 6, y + 18, w - 12, line - y - 20);
+    line += pdf.text(x + 6, line, w - 12, item.name, 9.5, style.text, true, 30);
+    if (several) line += pdf.text(x + 6, line, w - 12, names, 7.5, style.soft, false, 30);
     pdf.text(x + 6, line, w - 12, item.size, 7.5, style.soft, false, 10);
     if (at + 1 == per_page || i + 1 == content.items.size()) pdf.end_page();
   }
@@ -186,7 +239,8 @@ std::string book_pdf(const Plan& plan, const Assembly& assembly, const BookOptio
   const BookContent content = book_content(plan, assembly, options, illustrator.shapes());
   PdfPages pdf(content.title);
   title_page(pdf, content, front_pictures(plan, assembly, illustrator));
-  item_pages(pdf, content, assembly, illustrator);
+  contents_pages(pdf, content);
+  item_pages(pdf, content, illustrator);
   for (const BookPage& page : content.pages) {
     options.on_page(page.number, page.count);
     pdf_step(pdf, page, illustrator.step(*page.step, options.disassembly, 1.5), options.disassembly);

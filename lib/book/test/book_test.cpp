@@ -232,6 +232,68 @@ TEST(Book, PdfHasAPagePerStep) {
   EXPECT_NE(pdf.find("/Count " + std::to_string(2 + plan.disassembly.size())), std::string::npos);
 }
 
+std::size_t count_of(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+TEST(Book, AThickBookHasATableOfContents) {
+  std::mt19937 random(17);
+  const Assembly assembly = row_of(8);
+  const Plan plan = random_plan(assembly, random);
+  const std::string html = book_html(plan, assembly, {});
+  const std::string contents = html.substr(html.find("id=\"contents\""), html.find("Bill of materials") - html.find("id=\"contents\""));
+  for (std::size_t number = 1; number <= plan.disassembly.size(); ++number) {
+    const std::string place = "step-" + std::to_string(number) + "\"";
+    EXPECT_NE(contents.find("href=\"#" + place), std::string::npos) << number;
+    EXPECT_NE(html.find("id=\"" + place), std::string::npos) << number;
+  }
+  EXPECT_NE(book_pdf(plan, assembly, {}).find("/Count " + std::to_string(3 + plan.disassembly.size())), std::string::npos);
+}
+
+/// The plan takes out p0 and then p1; the others stay together.
+Plan repair_plan(const Assembly& assembly) {
+  Plan plan;
+  plan.assembly.source = "row/";
+  plan.assembly.box = assembly.input_box;
+  for (const Part& part : assembly.parts) plan.assembly.parts.push_back({part.id, part.name, part.file});
+  for (const char* name : {"p0", "p1"}) {
+    PlanStep step;
+    step.step = static_cast<unsigned>(plan.disassembly.size() + 1);
+    step.moves = {{name, {Pose{}, Pose{{0, 0, 1}, Eigen::Quaterniond::Identity()}}}};
+    step.separates = {{name}};
+    plan.disassembly.push_back(step);
+  }
+  for (std::size_t i = 2; i < assembly.parts.size(); ++i) plan.remaining.push_back(assembly.parts[i].name);
+  plan.asked.target = "p1";
+  plan.status = PlanStatus::complete;
+  return plan;
+}
+
+TEST(Book, TheBillOfMaterialsHasWhatTheBookHandles) {
+  const Assembly assembly = row_of(9);
+  Plan plan = repair_plan(assembly);
+  const std::string html = book_html(plan, assembly, {});
+  EXPECT_EQ(count_of(html, "<div class=\"item\">"), 2u);
+  EXPECT_NE(html.find("7 parts that stay together are not listed"), std::string::npos);
+  EXPECT_NE(html.find("<dd>2, 2 shapes</dd>"), std::string::npos);
+}
+
+TEST(Book, AProductThatIsKeptTogetherIsOneItem) {
+  const Assembly assembly = row_of(4);
+  Plan plan = repair_plan(assembly);
+  plan.disassembly.pop_back();
+  plan.disassembly[0].moves.push_back({"p1", plan.disassembly[0].moves[0].poses});
+  plan.disassembly[0].separates = {{"p0", "p1"}};
+  plan.assembly.components = {{"motor 1", "motor", {"p0", "p1"}, true, ""}, {"case", "case", {"p2", "p3"}, true, ""}};
+  const std::string html = book_html(plan, assembly, {});
+  EXPECT_EQ(count_of(html, "<div class=\"item\">"), 2u) << "the motor, and the case that it is put into";
+  EXPECT_NE(html.find("<strong>motor</strong>"), std::string::npos);
+  EXPECT_NE(html.find("<span class=\"badge\">1</span>motor 1</div>"), std::string::npos) << "the page has its number";
+  EXPECT_EQ(html.find("not listed"), std::string::npos);
+}
+
 TEST(Book, APlanWithoutStepsIsRefused) {
   const Assembly assembly = row_of(2);
   Plan plan;
