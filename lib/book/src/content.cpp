@@ -290,9 +290,14 @@ class ContentWriter {
 
   /// What the plan says about the step.
   void add_plan_facts(const PlanStep& step, BookPage& page) const {
-    if (step.forced && step.forced->accepted.empty())
+    if (step.forced && step.forced->accepted.empty()) {
       page.warning = fmt::format("Not verified: {}.", forced_text(plan_, *step.forced));
-    else if (step.forced)
+      Facts why;
+      if (!step.forced->reason.empty()) why.emplace_back("because", step.forced->reason);
+      if (const std::string advice = forced_advice(*step.forced); !advice.empty()) why.emplace_back("you can", advice);
+      page.facts.insert(page.facts.begin(), why.begin(), why.end());  // before what may not have room
+    }
+    if (step.forced && !step.forced->accepted.empty())
       page.facts.emplace_back(step.forced->accepted, forced_text(plan_, *step.forced));
     if (!step.contacts.empty()) page.facts.emplace_back("touches", text::joined(step.contacts));
     for (const PlanVerdict& v : step.checks)

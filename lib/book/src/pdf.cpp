@@ -61,7 +61,7 @@ class PdfPages {
       if (y + 1.4 * size > bottom) break;
       const double most = bottom - y;
       const double a = text(x, y, column - 6, name, size, style_.soft, false, most);
-      const double b = text(x + column, y, width - column, value, size, style_.text, false, std::min(most, 3.9 * size));
+      const double b = text(x + column, y, width - column, value, size, style_.text, false, std::min(most, 5.2 * size));
       y += std::max(a, b) + 2;
     }
     return y - begin;

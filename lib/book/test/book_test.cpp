@@ -205,7 +205,7 @@ TEST(Book, PagesAreInTheOrderOfTheirNumbersAndWarningsNameThem) {
   const Assembly assembly = row_of(7);
   Plan plan = random_plan(assembly, random);
   const std::size_t count = plan.disassembly.size();
-  plan.disassembly[1].forced = PlanForced{.part = "p0", .other = "p1", .depth = 0.01, .reason = ""};
+  plan.disassembly[1].forced = PlanForced{.part = "p0", .other = "p1", .depth = 0.01, .reason = "it is pressed in"};
   for (const bool disassembly : {false, true}) {
     BookOptions options;
     options.disassembly = disassembly;
@@ -220,6 +220,8 @@ TEST(Book, PagesAreInTheOrderOfTheirNumbersAndWarningsNameThem) {
     const std::size_t page = html.find("id=\"step-" + std::to_string(forced) + "\"");
     EXPECT_LT(page, html.find("Not verified: p0 cuts")) << "the page of that number says so";
     EXPECT_LT(html.find("Not verified: p0 cuts"), html.find("</section>", page));
+    EXPECT_NE(html.find("<dt>because</dt><dd>it is pressed in</dd>"), std::string::npos);
+    EXPECT_NE(html.find("constraints: {accept: "), std::string::npos) << "and how to accept it";
   }
 }
 

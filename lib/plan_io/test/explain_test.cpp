@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -165,6 +166,24 @@ TEST(Explain, HowFarAPartCameCountsFromItsLastPoseInThePlan) {
   EXPECT_TRUE(left(2).moved);
   EXPECT_NEAR(left(2).travel, 3, 1e-12);
   EXPECT_NE(explain_text(explain(plan, {}, name(1))).find("it did not move"), std::string::npos);
+}
+
+// Law: whatever the depth, the line accepts a step of that depth, and not one that is deeper by a fifth.
+TEST(Explain, TheLineThatAcceptsAForcedStep) {
+  Rng rng(7);
+  for (int round = 0; round < 200; ++round) {
+    PlanForced forced{.part = "it's", .other = "rim", .depth = std::pow(10, rng.uniform(-4, 3)), .reason = "it snaps"};
+    const std::string line = acceptance_line(forced), begin = "constraints: {accept: [{part: 'it''s', against: 'rim', as: snap, depth: ";
+    ASSERT_TRUE(line.starts_with(begin)) << line;
+    const double depth = std::stod(line.substr(begin.size()));
+    EXPECT_GE(depth, forced.depth) << line;
+    EXPECT_LT(depth, 1.2 * forced.depth) << line;
+    EXPECT_NE(forced_advice(forced).find(line), std::string::npos);
+    forced.reason = "it snaps, as " + line;
+    EXPECT_EQ(forced_advice(forced), "") << "its reason says so";
+    forced.accepted = "snap";
+    EXPECT_EQ(acceptance_line(forced), "");
+  }
 }
 
 TEST(Explain, OrderIsThatOfThePlan) {

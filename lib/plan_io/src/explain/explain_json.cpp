@@ -62,6 +62,7 @@ std::string explain_json(const Explanation& e) {
                        {"depth", forced->depth},
                        {"assembled", forced->assembled},
                        {"reason", forced->reason}};
+      if (const std::string line = acceptance_line(*forced); !line.empty()) one["forced"]["accept"] = line;
       if (forced->certificate) one["forced"]["certificate"] = *forced->certificate + 1;
       if (forced->lower_bound) one["forced"]["lower_bound"] = true;
     }

@@ -108,6 +108,8 @@ std::string steps_text(const Explanation& e) {
     const PlanStep& done = e.plan->disassembly.at(step.step - 1);
     if (done.forced) {
       out += fmt::format("FORCED: {}\n", forced_text(*e.plan, *done.forced));
+      if (const std::string advice = forced_advice(*done.forced); !advice.empty())
+        out += fmt::format("{:>5}  what you can do: {}\n", "", advice);
       if (!done.forced->reason.empty()) out += fmt::format("{:>5}  because: {}\n", "", done.forced->reason);
       if (done.forced->certificate)
         out += fmt::format("{:>5}  proof {} of the plan; `dismantle verify` checks it again\n", "",

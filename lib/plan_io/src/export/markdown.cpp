@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/exports.h"
 #include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/step_numbers.h"
@@ -44,11 +45,16 @@ std::string judged_cell(const std::vector<PlanVerdict>& checks) {
 /// A list, one line for each forced step.
 std::string forced_reasons(const Plan& plan) {
   std::string out;
-  for (std::size_t k = 0; k < plan.disassembly.size(); ++k)
-    if (const PlanStep& step = plan.disassembly[k]; step.forced && !step.forced->reason.empty())
-      out += fmt::format("- Step {} ({} in assembly) cuts {} into {}: {}.\n", step_number(plan, k, true),
-                         step_number(plan, k, false), markdown_text(step.forced->part),
-                         markdown_text(step.forced->other), markdown_text(step.forced->reason));
+  for (std::size_t k = 0; k < plan.disassembly.size(); ++k) {
+    const PlanStep& step = plan.disassembly[k];
+    if (!step.forced) continue;
+    const std::string advice = forced_advice(*step.forced);
+    if (step.forced->reason.empty() && advice.empty()) continue;
+    out += fmt::format("- Step {} ({} in assembly) cuts {} into {}{}{}{}{}.\n", step_number(plan, k, true),
+                       step_number(plan, k, false), markdown_text(step.forced->part), markdown_text(step.forced->other),
+                       step.forced->reason.empty() ? "" : ": ", markdown_text(step.forced->reason),
+                       advice.empty() ? "" : "; ", markdown_text(advice));
+  }
   return out.empty() ? out : "\nWhy steps are forced:\n\n" + out;
 }
 

@@ -72,6 +72,10 @@ DISMANTLE_API std::string explain_json(const Explanation& explanation);
 
 /// What a forced step does: "pin cuts 0.3 mm into hub (0.1 mm when assembled)".
 DISMANTLE_API std::string forced_text(const Plan& plan, const PlanForced& forced);
+/// The line of a configuration that accepts a forced step as it is; empty if it is accepted.
+DISMANTLE_API std::string acceptance_line(const PlanForced& forced);
+/// What the user can do beyond what its reason says, with that line; empty: nothing.
+DISMANTLE_API std::string forced_advice(const PlanForced& forced);
 /// A line for each overlap that the step makes use of; may be empty.
 DISMANTLE_API std::string overlaps_text(const Plan& plan, const PlanStep& step);
 /// A length of the plan's input with its unit: "0.25 mm", or "0.25 input units" where the files do not say. In the unit

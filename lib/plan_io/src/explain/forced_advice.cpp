@@ -1,0 +1,38 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "dismantle/plan_io/explain.h"
+
+namespace dismantle {
+namespace {
+
+/// A name in YAML, in single quotes.
+std::string quoted(const std::string& name) {
+  std::string out = "'";
+  for (const char c : name) out += c == '\'' ? "''" : std::string(1, c);
+  return out + "'";
+}
+
+/// Two digits, above `x`, so that the step is accepted as deep as it is.
+std::string at_least(double x) {
+  if (!(x > 0)) return "0";
+  const double unit = std::pow(10, std::floor(std::log10(x)) - 1);
+  return fmt::format("{:.4g}", std::ceil(x / unit * 1.001) * unit);
+}
+
+}  // namespace
+
+std::string acceptance_line(const PlanForced& forced) {
+  if (!forced.accepted.empty()) return {};
+  return fmt::format("constraints: {{accept: [{{part: {}, against: {}, as: snap, depth: {}}}]}}", quoted(forced.part),
+                     quoted(forced.other), at_least(forced.depth));
+}
+
+std::string forced_advice(const PlanForced& forced) {
+  const std::string line = acceptance_line(forced);
+  if (line.empty() || forced.reason.find(line) != std::string::npos) return {};
+  return fmt::format("if the real parts allow it, accept the step with `{}`", line);
+}
+
+}  // namespace dismantle
