@@ -48,6 +48,11 @@ export class Model {
     return stepAt(this.lines[mode], time);
   }
 
+  /** Runs of equal steps that follow each other: `first`, index of a step that is shown, `count`, `words`. */
+  runs(mode) {
+    return this.view.runs[mode].map(run => ({...run, first: this.lines[mode].steps.findIndex(s => s.index === run.first)}));
+  }
+
   /** What the page says of a step that is shown: how the assembly lies. */
   about(mode, index) {
     return this.view.steps[mode][this.lines[mode].steps[index].index];

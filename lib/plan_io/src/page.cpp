@@ -131,8 +131,11 @@ std::string to_page(const Plan& plan, const Assembly& assembly, const std::strin
     data += key + value.dump(-1, ' ', false, PageJson::error_handler_t::replace);
   };
   add(",\"result\":", {{"word", result_word(plan)}, {"text", result_text(plan)}});
-  add(",\"geometry\":", geometry_json(plan, assembly));
-  add(",\"view\":", page_view(plan, assembly, settings));
+  const PageJson geometry = geometry_json(plan, assembly);
+  PartShapes shapes;
+  for (const PageJson& part : geometry["parts"]) shapes.push_back(part["shape"].get<std::size_t>());
+  add(",\"geometry\":", geometry);
+  add(",\"view\":", page_view(plan, assembly, shapes, settings));
   data += "}";
   return page_template.substr(0, place) + for_script(data) + page_template.substr(place + mark.size());
 }

@@ -28,12 +28,36 @@ StepsJson steps_json(const StepUps& ups, const InputFrame& frame) {
   return out;
 }
 
+/// A run of several steps: indices into the steps of its animation.
+void add_run(StepsJson& out, std::size_t first, std::size_t count, const std::string& words) {
+  if (count > 1) out.push_back({{"first", first}, {"count", count}, {"words", words}});
+}
+
 }  // namespace
 
 StepsJson page_steps(const Plan& plan) {
   const InputFrame frame = input_frame(plan.assembly);
   return {{"disassembly", steps_json(disassembly_ups(plan), frame)},
           {"assembly", steps_json(assembly_ups(plan), frame)}};
+}
+
+StepsJson page_runs(const Plan& plan, const std::vector<StepRun>& runs) {
+  StepsJson apart = StepsJson::array(), back = StepsJson::array();
+  const std::size_t n = plan.disassembly.size(), m = plan.assembly_steps.size();
+  std::vector<std::size_t> run_of(n);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    for (std::size_t s = runs[r].first; s < runs[r].first + runs[r].count; ++s) run_of[s] = r;
+    add_run(apart, runs[r].first, runs[r].count, run_words(plan, runs[r]));
+  }
+  // A step of the assembly belongs to the run of the step that it reverses.
+  const auto reversed = [&](std::size_t k) { return n - plan.assembly_steps[k].step; };
+  for (std::size_t k = 0, end = 0; k < m; k = end) {
+    end = k + 1;
+    if (reversed(k) >= n) continue;
+    while (end < m && reversed(end) < n && run_of[reversed(end)] == run_of[reversed(k)]) ++end;
+    add_run(back, k, end - k, run_words(plan, {reversed(end - 1), end - k}));
+  }
+  return {{"disassembly", std::move(apart)}, {"assembly", std::move(back)}};
 }
 
 }  // namespace dismantle

@@ -96,7 +96,8 @@ ViewJson reasons_json(const Explanation& why, const Assembly& assembly, const Pl
 
 }  // namespace
 
-ViewJson page_view(const Plan& plan, const Assembly& assembly, const ExplainSettings& settings) {
+ViewJson page_view(const Plan& plan, const Assembly& assembly, const PartShapes& shapes,
+                   const ExplainSettings& settings) {
   const PlanHistory history(plan);
   const Timeline disassembly = timeline(plan.disassembly, assembly, disassembly_ups(plan));
   const Timeline together = timeline(plan.assembly_steps, assembly, assembly_ups(plan));
@@ -106,6 +107,7 @@ ViewJson page_view(const Plan& plan, const Assembly& assembly, const ExplainSett
   return {{"up", input_frame(plan.assembly).y_up ? "y" : "z"},
           {"leavers", history.leavers()},
           {"steps", page_steps(plan)},
+          {"runs", page_runs(plan, step_runs(plan, shapes))},
           {"animations", {{"disassembly", animation_json(disassembly)}, {"assembly", animation_json(together)}}},
           {"parts", parts_json(plan, assembly, history, disassembly, together)},
           {"reasons", reasons_json(why, assembly, history)},

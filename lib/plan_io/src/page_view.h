@@ -6,11 +6,13 @@
 #include "dismantle/assembly.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/explain.h"
+#include "dismantle/plan_io/step_runs.h"
 
 namespace dismantle {
 
-/// `view` of a page (docs/viewer.md): times, presence, exploded view, reasons and advice.
+/// `view` of a page (docs/viewer.md): times, runs of steps, presence, exploded view, reasons and advice.
 /// @throws InputError when the plan names a part that the assembly does not have.
-nlohmann::ordered_json page_view(const Plan& plan, const Assembly& assembly, const ExplainSettings& settings);
+nlohmann::ordered_json page_view(const Plan& plan, const Assembly& assembly, const PartShapes& shapes,
+                                 const ExplainSettings& settings);
 
 }  // namespace dismantle

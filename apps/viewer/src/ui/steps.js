@@ -35,9 +35,26 @@ function facts(app, index) {
   return element('div.about', {}, rows.length === 0 ? null : element('dl.facts', {}, rows), details(app.model, step));
 }
 
+/** The line of a run: "3–6  4x screw". A click shows its steps, or hides them. */
+function makeRun(app, {first, count, words}) {
+  const {steps} = app.line, inner = element('ol', {hidden: true});
+  const line = element('button.step', {type: 'button', 'aria-expanded': 'false', title: 'Show or hide these steps', onclick: () => run.toggle()},
+    element('span.count', {}, `${steps[first].step.step}–${steps[first + count - 1].step.step}`),
+    element('span.swatches', {}, swatch(app.model.colour(steps[first].parts[0], app.colours))), element('span.title', {}, words), element('span.more', {}));
+  const run = {node: element('li.run', {}, line, inner), inner, chosen: false, has: false,
+    toggle() { run.chosen = inner.hidden; run.has = false; run.show(); },
+    /** Open as long as the user chose so, or the current step is one of these. */
+    show() {
+      inner.hidden = !run.chosen && !run.has;
+      line.setAttribute('aria-expanded', String(!inner.hidden));
+      run.node.classList.toggle('expanded', !inner.hidden);
+    }};
+  return run;
+}
+
 export function makeSteps(app) {
   const list = element('ol.steps', {'aria-label': 'Steps'});
-  let items = [], open = -1;
+  let items = [], runs = [], runOf = [], open = -1;
 
   function make() {
     items = app.line.steps.map((entry, index) => {
@@ -50,7 +67,17 @@ export function makeSteps(app) {
         step.forced ? element(`span.pill${isBad(step) ? '.bad' : ''}`, {}, isBad(step) ? 'forced' : step.forced.accepted) : null);
       return element('li', {}, button);
     });
-    list.replaceChildren(...items);
+    runs = [];
+    runOf = items.map(() => null);
+    for (const told of app.model.runs(app.mode)) {
+      const run = makeRun(app, told);
+      runs.push(run);
+      for (let i = told.first; i < told.first + told.count; ++i) {
+        runOf[i] = run;
+        run.inner.append(items[i]);
+      }
+    }
+    list.replaceChildren(...new Set(items.map((item, i) => runOf[i]?.node ?? item)));
     open = -1;
     mark();
   }
@@ -61,6 +88,10 @@ export function makeSteps(app) {
       items[open].querySelector('.about')?.remove();
     }
     open = app.step;
+    for (const run of runs) {
+      run.has = runOf[open] === run;
+      run.show();
+    }
     const item = items[open];
     if (!item) return;
     item.classList.add('open');

@@ -27,10 +27,10 @@ function box(lo, hi) {
   return text;
 }
 
-/** A stack of boxes, one per name. */
-export function planBoxes(folder, name, names) {
+/** A stack of boxes, one per name; `widths`: of each, all different if not said. */
+export function planBoxes(folder, name, names, widths = names.map((_, i) => 20 - i)) {
   mkdirSync(join(folder, `${name}.parts`));
-  names.forEach((part, i) => writeFileSync(join(folder, `${name}.parts`, `${part}.obj`), box([0, 0, 11 * i], [20 - i, 20, 11 * i + 10])));
+  names.forEach((part, i) => writeFileSync(join(folder, `${name}.parts`, `${part}.obj`), box([0, 0, 11 * i], [widths[i], 20, 11 * i + 10])));
   run(folder, [0, 1], 'plan', `${name}.parts`, '-o', name, '--threads', '1', '-q', '--set', 'run.force=off');
   return result(folder, name);
 }

@@ -98,7 +98,8 @@ onPage('the lists show each step and part by name', () => shelf.file, async page
   assert.deepEqual(await page.locator('.steps .name').allTextContents(), plan.disassembly.map(s => s.moves.map(m => m.part).join(', ')));
   assert.deepEqual((await page.locator('.parts .part .name').allTextContents()).sort(), plan.assembly.parts.map(p => p.name).sort());
   assert.match(await page.locator('.summary').textContent(), /Complete/);
-  await page.locator('.steps .step').nth(1).click();
+  for (const run of await page.locator('.steps .run > .step').all()) await run.click();
+  await page.locator('.steps li:not(.run) > .step').nth(1).click();
   assert.equal((await page.evaluate('window.dismantle.state()')).step, 1);
 });
 
@@ -282,6 +283,30 @@ test('the model lies as each step says, on the same ground, and the step says so
   await page.close();
 });
 
+test('equal steps that follow each other are one line, which opens where time or the user is', async () => {
+  // Boxes of one shape, which leave the stack upwards one by one.
+  const {file, plan} = planBoxes(folder, 'equal', ['base', 'a', 'b', 'c', 'd'], [20, 10, 10, 10, 10]);
+  const page = await open(browser, file), numbers = () => page.locator('.steps > li:visible > .step .count').allTextContents();
+  const n = plan.disassembly.length;
+  assert.equal(n, 4);
+  assert.deepEqual(await numbers(), ['1–4']);
+  assert.match(await page.locator('.steps .run > .step .title').textContent(), /^4x [abcd]$/);
+  assert.equal(await page.locator('.steps .run ol').isVisible(), false);
+  await page.locator('.steps .run > .step').click();
+  assert.deepEqual(await page.locator('.steps .run ol .count').allTextContents(), ['1', '2', '3', '4']);
+  await page.locator('.steps .run ol .step').nth(2).click();
+  assert.equal((await page.evaluate('window.dismantle.state()')).step, 2);
+  await page.locator('.steps .run > .step').click();
+  assert.equal(await page.locator('.steps .run ol').isVisible(), false);
+  await page.keyboard.press('ArrowLeft');
+  await page.keyboard.press('ArrowLeft');
+  assert.equal(await page.locator('.steps .run ol').isVisible(), true, 'the step that runs is seen');
+  await page.getByRole('button', {name: 'Put together'}).click();
+  assert.deepEqual(await numbers(), ['1–4']);
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+});
+
 onPage('help, theme, up axis, fading, paths', () => shelf.file, async page => {
   const state = () => page.evaluate('window.dismantle.state()');
   await page.keyboard.press('?');
@@ -321,7 +346,7 @@ test('without WebGL the page says so, and lists steps and parts all the same', a
   try {
     const page = await open(plain, shelf.file);
     assert.match(await page.locator('.nowebgl').textContent(), /cannot draw in 3D.*WebGL/s);
-    assert.equal(await page.locator('.steps li').count(), shelf.plan.disassembly.length);
+    assert.equal(await page.locator('.steps li:not(.run)').count(), shelf.plan.disassembly.length);
     await page.keyboard.press('ArrowRight');
     await page.keyboard.press('e');
     await page.keyboard.press('a');

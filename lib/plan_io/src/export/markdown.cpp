@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/exports.h"
 #include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/step_numbers.h"
+#include "dismantle/plan_io/step_runs.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/text_columns.h"
 #include "dismantle/plan_io/verdicts.h"
@@ -31,15 +33,56 @@ std::string steps_list(const std::vector<unsigned>& steps) {
   return out.empty() ? "-" : out;
 }
 
-/// Costs, refusals and notes of the checks, notes with their data.
-std::string judged_cell(const std::vector<PlanVerdict>& checks) {
-  std::vector<std::string> lines = cost_lines(checks);
-  for (const PlanVerdict& v : checks)
-    for (const StepNote& note : v.notes)
-      lines.push_back(fmt::format("{} ({}){}{}", note.text, note.kind, note.data.empty() ? "" : ": ", note.data));
+/// Adds what is not there yet.
+template <class Value>
+void add_new(std::vector<Value>& to, const std::vector<Value>& values) {
+  for (const Value& value : values)
+    if (std::ranges::find(to, value) == to.end()) to.push_back(value);
+}
+
+/// Costs, refusals and notes of the checks, notes with their data; the same in several steps once.
+std::string judged_cell(std::span<const PlanStep> steps) {
+  std::vector<std::string> lines;
+  for (const PlanStep& step : steps) {
+    add_new(lines, cost_lines(step.checks));
+    for (const PlanVerdict& v : step.checks)
+      for (const StepNote& note : v.notes)
+        add_new(lines,
+                {fmt::format("{} ({}){}{}", note.text, note.kind, note.data.empty() ? "" : ": ", note.data)});
+  }
   std::string out;
   for (const std::string& line : lines) out += (out.empty() ? "" : "<br>") + markdown_text(line);
   return out.empty() ? "-" : out;
+}
+
+/// A row of the table: a step, or a run of several.
+struct Together {
+  std::string numbers, in_assembly, names;
+  std::vector<unsigned> after;        // steps before it
+  std::vector<std::string> contacts;  // parts that stay
+};
+
+Together together(std::span<const PlanStep> steps, const Plan& plan) {
+  Together out;
+  std::vector<std::string> moved;
+  for (const PlanStep& step : steps) {
+    for (const PlanMove& move : step.moves) moved.push_back(move.part);
+    out.names += (out.names.empty() ? "" : "; ") + text::names_of(plan, step);
+    add_new(out.after, step.after);
+    add_new(out.contacts, step.contacts);
+  }
+  if (steps.size() > 1) {
+    std::erase_if(out.after, [&](unsigned s) { return s >= steps.front().step; });
+    std::ranges::sort(out.after);
+    std::erase_if(out.contacts, [&](const std::string& part) { return std::ranges::find(moved, part) != moved.end(); });
+  }
+  const std::size_t first = static_cast<std::size_t>(steps.data() - plan.disassembly.data()), last = first + steps.size() - 1;
+  const auto range = [](std::size_t from, std::size_t to) {
+    return from == to ? fmt::format("{}", from) : fmt::format("{}–{}", from, to);
+  };
+  out.numbers = range(step_number(plan, first, true), step_number(plan, last, true));
+  out.in_assembly = range(step_number(plan, last, false), step_number(plan, first, false));
+  return out;
 }
 
 /// A list, one line for each forced step.
@@ -94,8 +137,10 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame, const Guid
     out += fmt::format("| step | in assembly | parts | motion | waits for | touches |{}{}\n|---:|---:|---|---|---|---|{}{}\n",
                        forced ? " cuts in |" : "", judged ? " as an assembly operation |" : "", forced ? "---:|" : "",
                        judged ? "---|" : "");
-    for (std::size_t k = 0; k < plan.disassembly.size(); ++k) {
-      const PlanStep& step = plan.disassembly[k];
+    for (const StepRun& run : step_runs(plan, shapes_of(plan))) {
+      const std::span<const PlanStep> steps = std::span(plan.disassembly).subspan(run.first, run.count);
+      const PlanStep& step = steps.front();
+      const std::size_t k = run.first;
       std::string motion = "-";
       if (!step.moves.empty()) {
         const std::vector<Pose>& poses = step.moves.front().poses;
@@ -103,17 +148,19 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame, const Guid
         motion = travel_words(summary, guided.empty() ? std::nullopt : guided.at(k), {unit, frame.y_up, size, true},
                               frame.lies(step.up));
       }
+      const Together all = together(steps, plan);
       const std::string what = step.separates.empty() ? " (shifted, stays)" : "";
+      const std::string before = run.count > 1 ? run_words(plan, run) + ": " : "";
       std::string cuts;
       if (step.forced)
         cuts = fmt::format("**{}: {} {}**", step.forced->accepted.empty() ? "forced" : "accepted",
                            figure_text(unit.factor * step.forced->depth), unit.name);
-      out += fmt::format("| {} | {} | {}{} | {} | {} | {} |{}{}\n", step_number(plan, k, true), step_number(plan, k, false),
-                         markdown_text(text::names_of(plan, step)), what, markdown_text(motion),
-                         step.layer > 0 ? steps_list(step.after) : "not recorded",
-                         step.contacts.empty() ? "-" : markdown_text(text::joined(step.contacts)),
+      out += fmt::format("| {} | {} | {}{}{} | {} | {} | {} |{}{}\n", all.numbers, all.in_assembly, markdown_text(before),
+                         markdown_text(all.names), what, markdown_text(motion),
+                         step.layer > 0 ? steps_list(all.after) : "not recorded",
+                         all.contacts.empty() ? "-" : markdown_text(text::joined(all.contacts)),
                          forced ? fmt::format(" {} |", cuts.empty() ? "-" : cuts) : "",
-                         judged ? " " + judged_cell(step.checks) + " |" : "");
+                         judged ? " " + judged_cell(steps) + " |" : "");
     }
     out +=
         "\nSteps have their numbers in the disassembly; in the assembly, which is the same backwards, they have those of the "
