@@ -16,7 +16,7 @@ struct ReportOptions {
   std::vector<std::string> inputs, tables;
   std::string format = "text", time = "wall", output, arena;
   std::size_t row = 0;
-  bool plans = false;
+  bool plans = false, pages = false;
 };
 
 /// The requested tables. Default: all; without the list of trials as text, only that list as CSV.
@@ -32,22 +32,40 @@ std::vector<bench::Table> chosen(std::vector<bench::Table> all, const ReportOpti
   return out;
 }
 
+/// Writes a page beside each plan, and lets its link lead there. A plan whose input is gone keeps its link.
+void write_pages(const std::filesystem::path& folder, std::vector<std::string>& links) {
+  if (!has_viewer()) throw Error(kNoViewer);
+  const Session session = Session::reader();
+  for (std::string& link : links) {
+    if (link.empty()) continue;
+    try {
+      const auto [plan, assembly] = session.load_plan(folder / link);
+      const std::string page = std::filesystem::path(link).replace_extension(".html").string();
+      write_file(folder / page, page_of(plan, assembly));
+      link = page;
+    } catch (const InputError& e) {
+      fmt::print(stderr, "warning: {} has no page: {}\n", (folder / link).string(), e.what());
+    }
+  }
+}
+
 std::string rendered(const bench::ReportData& data, const ReportOptions& options) {
-  std::string plans;
-  if (options.plans) {
+  std::vector<std::string> links;
+  if (options.plans || options.pages) {
     if (options.format != "html" || options.output.empty())
-      throw Error("--plans needs --format html and -o FILE: the page links to plans in a folder beside it");
+      throw Error(fmt::format("{} needs --format html and -o FILE: the page links to plans in a folder beside it",
+                              options.pages ? "--pages" : "--plans"));
     const std::filesystem::path folder = std::filesystem::path(options.output).replace_extension(".plans");
     open_output_folder(folder);
-    bench::write_plans(data, folder);
-    plans = folder.filename().string();
+    links = bench::write_plans(data, folder);
+    if (options.pages) write_pages(folder.parent_path(), links);
   }
   if (options.format == "svg") {
     if (!options.tables.empty())
       throw Error("--table and --format svg exclude each other: the picture is of the curves");
     return bench::report_svg(data);
   }
-  const auto tables = chosen(bench::tables_of(data, plans), options);
+  const auto tables = chosen(bench::tables_of(data, links), options);
   if (options.format == "markdown") return bench::report_markdown(data, tables);
   if (options.format == "csv") return bench::report_csv(tables);
   if (options.format == "html") return bench::report_html(data, tables);
@@ -99,11 +117,16 @@ void add_report(CLI::App& app, Action& action) {
       ->option_text("wall|cpu");
   command->add_option("-o,--output", options->output, "File to write; with --row: folder")->option_text("FILE");
   command->add_option("--table", options->tables, "Just this table; may be repeated")
-      ->check(CLI::IsMember({"success", "sizes", "time", "precision", "pairs", "outcomes", "curves", "trials"}))
-      ->option_text("success|sizes|time|precision|pairs|outcomes|curves|trials")
+      ->check(CLI::IsMember({"setup", "planners", "success", "sizes", "time", "solution", "precision", "pairs", "outcomes", "curves",
+                             "trials"}))
+      ->option_text("setup|planners|success|sizes|time|solution|precision|pairs|outcomes|curves|trials")
       ->take_all()
       ->allow_extra_args(false);
   command->add_flag("--plans", options->plans, "html: write all plans beside the page, and link each row to its plan")
+      ->option_text(" ");
+  command
+      ->add_flag("--pages", options->pages,
+                 "html: as --plans, and a page for each plan, which its row opens; needs the inputs")
       ->option_text(" ");
   command->add_option("--arena", options->arena, "Write a database that OMPL's Planner Arena opens")
       ->option_text("FILE.db");

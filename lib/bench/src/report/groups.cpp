@@ -1,5 +1,7 @@
 #include "report/groups.h"
 
+#include <algorithm>
+
 namespace dismantle::bench {
 
 std::vector<Contender> contenders_of(const ReportData& data) {
@@ -16,10 +18,18 @@ std::vector<Contender> contenders_of(const ReportData& data) {
 
 double time_of(const ReportRow& row) { return row.solve_seconds.value_or(row.wall_seconds); }
 
+double observed_time(const ReportRow& row) {
+  return row.stops_at > 0 ? std::min(time_of(row), row.stops_at) : time_of(row);
+}
+
+bool out_of_time(const ReportRow& row) {
+  if (row.outcome == "wall_limit" || row.outcome == "cpu_limit") return true;
+  return row.outcome == "timeout" && row.stops_at > 0 && time_of(row) >= row.stops_at;
+}
+
 void use_cpu_time(ReportData& data) {
   for (ReportRow& row : data.rows) {
-    const bool stopped = row.outcome == "timeout" && row.limit_timeout > 0 && time_of(row) >= row.limit_timeout;
-    row.limit_timeout = stopped ? row.cpu_seconds : 0;
+    row.stops_at = row.outcome == "timeout" && out_of_time(row) ? row.cpu_seconds : 0;
     row.solve_seconds = row.cpu_seconds;
   }
   data.notes.push_back("Times are CPU seconds of the planning processes, reading the input included.");

@@ -5,7 +5,11 @@
 
 namespace dismantle::bench {
 
-/// Pairs of planners in one variant, compared on the trials that both solved.
+/// Machine, versions, limits and date.
+Table setup_table(const ReportData& data);
+/// The plugins of each planner.
+Table planners_table(const ReportData& data);
+/// Pairs of planners in one variant, compared on their common trials.
 Table pairs_table(const std::vector<Contender>& contenders);
 /// Penetration depths along the plans.
 Table precision_table(const std::vector<Contender>& contenders);
@@ -13,7 +17,9 @@ Table precision_table(const std::vector<Contender>& contenders);
 Table outcomes_table(const std::vector<Contender>& contenders);
 /// The curves at a few times.
 Table curves_table(const ReportData& data);
-/// Every row. `plans`: folder with the plans, relative to the page.
-Table trials_table(const ReportData& data, const std::string& plans);
+/// Quantiles and restricted means of the curves.
+Table solution_table(const ReportData& data);
+/// Every row. `links`: see tables_of().
+Table trials_table(const ReportData& data, const std::vector<std::string>& links);
 
 }  // namespace dismantle::bench

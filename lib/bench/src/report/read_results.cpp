@@ -7,6 +7,7 @@
 #include "dismantle/bench/report.h"
 #include "dismantle/errors.h"
 #include "dismantle/preparation/read_input.h"
+#include "report/observations.h"
 #include "store/results.h"
 
 namespace dismantle::bench {
@@ -53,7 +54,16 @@ ReportRow row_of(const Statement& s, const std::vector<int>& columns, const fs::
   for_columns(r, [&](const char*, auto& value, const char*) {
     if (const int at = *column++; at >= 0) s.get(at, value);
   });
+  r.stops_at = r.limit_timeout;
   return r;
+}
+
+std::vector<PluginUse> plugins_of(Sqlite& db, const std::string& config) {
+  auto read = db.prepare("SELECT section, type, plugin, version, file, sha256 FROM plugins WHERE config_hash = ? ORDER BY section");
+  read.bind(config);
+  std::vector<PluginUse> out;
+  while (read.step()) out.push_back({read.text(0), read.text(1), read.text(2), read.text(3), read.text(4), read.text(5)});
+  return out;
 }
 
 class Merger {
@@ -88,6 +98,7 @@ class Merger {
       progress.bind(row.id);
       while (progress.step()) row.progress.emplace_back(progress.number(0), progress.integer(1));
       progress.done();
+      if (!data_.composition.contains(row.planner)) data_.composition[row.planner] = plugins_of(db, row.config_hash);
       append_new(data_.planners, row.planner);  // for rows of planners that are no longer in the suite
       append_new(data_.variants, row.variant);
       data_.rows.push_back(std::move(row));
@@ -98,6 +109,7 @@ class Merger {
     for (const auto& name : names_) data_.name += (data_.name.empty() ? "" : ", ") + name;
     fill_parts();
     sort();
+    number_observations(data_.rows);
     if (data_.missing > 0)
       data_.notes.push_back(fmt::format("{} trials are not done yet and not counted.", data_.missing));
     if (twice_ > 0)

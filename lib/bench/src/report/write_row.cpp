@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "dismantle/bench/report.h"
@@ -9,7 +7,7 @@
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/write_file.h"
 #include "launch/shell.h"
-#include "store/compress.h"
+#include "report/stored_plans.h"
 #include "store/sqlite.h"
 
 namespace dismantle::bench {
@@ -26,27 +24,19 @@ nlohmann::ordered_json json_of(const ReportRow& row) {
   return out;
 }
 
-std::string plan_of(Sqlite& db, std::int64_t id) {
-  auto plan = db.prepare("SELECT size, bytes FROM plans WHERE trial = ?");
-  plan.bind(id);
-  if (!plan.step()) throw InputError(db.name(), fmt::format("the plan of row {} is gone", id));
-  return expanded(plan.text(1), static_cast<std::size_t>(plan.integer(0)));
-}
-
 }  // namespace
 
-std::size_t write_plans(const ReportData& data, const std::filesystem::path& folder) {
-  std::map<std::filesystem::path, std::unique_ptr<Sqlite>> open;
-  std::size_t written = 0;
+std::vector<std::string> write_plans(const ReportData& data, const std::filesystem::path& folder) {
+  StoredPlans stored;
+  std::vector<std::string> links(data.rows.size());
   for (std::size_t i = 0; i < data.rows.size(); ++i) {
     const ReportRow& row = data.rows[i];
     if (!row.has_plan) continue;
-    auto& db = open[row.database];
-    if (!db) db = std::make_unique<Sqlite>(row.database, Sqlite::Mode::read);
-    write_file(folder / fmt::format("{}.json", i + 1), plan_of(*db, row.id));
-    ++written;
+    const std::string name = fmt::format("{}.json", i + 1);
+    write_file(folder / name, stored.of(row));
+    links[i] = folder.filename().string() + "/" + name;
   }
-  return written;
+  return links;
 }
 
 std::string write_row(const ReportRow& row, const std::filesystem::path& folder) {
@@ -55,7 +45,7 @@ std::string write_row(const ReportRow& row, const std::filesystem::path& folder)
   config.bind(row.config_hash);
   if (!config.step()) throw InputError(row.database.string(), fmt::format("row {} has no configuration", row.id));
   write_file(folder / "config.yaml", config.text(0));
-  if (row.has_plan) write_file(folder / "plan.json", plan_of(db, row.id));
+  if (row.has_plan) write_file(folder / "plan.json", StoredPlans().of(row));
   write_file(folder / "row.json", json_of(row).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   return fmt::format("dismantle plan {} -c {}{}", shell_quoted(row.input),
                      shell_quoted((folder / "config.yaml").string()),

@@ -11,6 +11,7 @@
 #include "store/compress.h"
 #include "store/owner.h"
 #include "store/tables.h"
+#include "store/version.h"
 
 namespace dismantle::bench {
 namespace {
@@ -70,7 +71,7 @@ void Results::enlist(const Suite& suite, const std::vector<TrialPlan>& trials,
   Transaction transaction(db_);
   set(db_, "name", suite.name);
   set(db_, "text", suite.text);
-  set(db_, "generator", "dismantle " DISMANTLE_VERSION);
+  set(db_, "generator", "dismantle " + version_and_commit());
   std::string planners, variants;
   for (const auto& planner : suite.planners) planners += planner.name + "\n";
   for (const auto& variant : suite.variants) variants += variant.name + "\n";
@@ -191,7 +192,7 @@ void Results::finish(std::size_t trial, TrialRecord record) {
   TrialResult& result = record.result;
   result.host = host_.substr(0, host_.find(' '));
   result.cpu_model = cpu_;
-  result.version = DISMANTLE_VERSION;
+  result.version = version_and_commit();
   result.ended = utc_now();
   std::string columns;
   for_result_columns(result,

@@ -12,10 +12,6 @@
 
 namespace dismantle::bench {
 
-struct PluginUse {
-  std::string section, type, plugin, version, file, sha256;
-};
-
 struct ConfigRecord {
   std::string hash, text;
   std::vector<PluginUse> plugins;

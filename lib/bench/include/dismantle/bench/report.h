@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "dismantle/bench/statistics.h"
 #include "dismantle/bench/trial_row.h"
 #include "dismantle/export.h"
 
@@ -18,6 +19,7 @@ struct ReportData {
   std::string name;
   std::vector<std::string> planners, variants;  ///< in the order of the suite
   std::vector<ReportRow> rows;
+  std::map<std::string, std::vector<PluginUse>> composition;  ///< of each planner
   std::size_t missing = 0;         ///< trials that are listed in the databases but not finished
   std::vector<std::string> notes;  ///< remarks that the report shows to its reader
 };
@@ -42,29 +44,22 @@ struct Table {
   std::vector<std::vector<TableCell>> rows;
 };
 
-/// The tables success, sizes, time, precision, pairs, outcomes, curves and trials. `plans`: folder with the plans,
-/// relative to the page; empty: none.
-DISMANTLE_API std::vector<Table> tables_of(const ReportData& data, const std::string& plans = "");
+/// The tables setup, planners, success, sizes, time, solution, precision, pairs, outcomes, curves and trials. `links`: of
+/// each row, to what shows its plan, relative to the page; empty: none.
+DISMANTLE_API std::vector<Table> tables_of(const ReportData& data, const std::vector<std::string>& links = {});
 
-/// Writes the plan of each row that has one as `folder`/ROW.json, rows counted from 1. Returns the number of plans.
-DISMANTLE_API std::size_t write_plans(const ReportData& data, const std::filesystem::path& folder);
-
-/// Success rate `hits` / `n` with its 95 % Wilson interval; n > 0.
-struct Proportion {
-  double share = 0, low = 0, high = 0;
-};
-DISMANTLE_API Proportion wilson(std::size_t hits, std::size_t n);
+/// Writes the plan of each row that has one as `folder`/ROW.json, rows counted from 1. Returns the link of each row,
+/// relative to the parent of `folder`; empty: no plan.
+DISMANTLE_API std::vector<std::string> write_plans(const ReportData& data, const std::filesystem::path& folder);
 
 /// Share of trials solved within a time (1 - Kaplan-Meier): a step at each (seconds, share). A trial that ran out of
 /// time is censored at that time; a trial that failed for another reason counts as never solved.
 struct Curve {
   std::string label;
-  std::vector<std::pair<double, double>> steps;  ///< increasing
-  double end = 0;                                ///< largest time observed, seconds
+  SuccessSteps steps;  ///< increasing
+  double end = 0;      ///< largest time observed of any planner, seconds; until then the curve keeps its last value
+  std::size_t solved = 0, censored = 0, never = 0;
 };
-/// Steps of a Curve. Events: seconds, and true for solved or false for censored. `never`: number of other trials.
-DISMANTLE_API std::vector<std::pair<double, double>> success_over_time(std::vector<std::pair<double, bool>> events,
-                                                                       std::size_t never);
 DISMANTLE_API std::vector<Curve> curves_of(const ReportData& data);
 
 DISMANTLE_API std::string report_text(const ReportData& data, const std::vector<Table>& tables);

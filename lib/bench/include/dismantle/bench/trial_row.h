@@ -67,7 +67,7 @@ namespace dismantle::bench {
   COLUMN(std::string, counts, "all counts of the planner, JSON") \
   COLUMN(std::string, host, "name of the machine") \
   COLUMN(std::string, cpu_model, "of the machine") \
-  COLUMN(std::string, version, "of Dismantle") \
+  COLUMN(std::string, version, "of Dismantle, and the commit that it was built from") \
   COLUMN(std::string, started, "UTC") \
   COLUMN(std::string, ended, "UTC")
 // clang-format on
@@ -100,11 +100,20 @@ void for_result_columns(Row&& row, Visit visit) {
 #undef DISMANTLE_MEMBER
 #undef DISMANTLE_VISIT
 
+/// A plugin of a planner. `section`: its place in the configuration.
+struct PluginUse {
+  std::string section, type, plugin, version, file, sha256;
+};
+
 /// A finished trial, as it is read from a database. Times in seconds.
 struct ReportRow : TrialPlan, TrialResult {
   std::filesystem::path database;
   std::int64_t id = 0;  ///< of the row in `database`
   bool has_plan = false;
+  double stops_at = 0;  ///< the time that stops the trial, as the report measures times: limits.timeout; 0: none
+  /// Rows of one planner, variant and assembly have the same number if they are one observation: on the same input,
+  /// solved by the same steps, or all not solved. Seeds of a planner that does not use them are no repetitions.
+  std::size_t observation = 0;
   std::vector<std::pair<double, std::int64_t>> progress;  ///< seconds, parts removed
 };
 
