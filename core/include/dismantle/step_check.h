@@ -86,6 +86,7 @@ struct DISMANTLE_API Objective {
   std::vector<ObjectiveItem> items{};
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit; how the assembly lies
   bool empty() const { return items.empty(); }
+  /// What is asked of a check.
   using Ask = StepVerdict (StepCheck::*)(const StepQuestion&, const RunContext&) const;
   /// `ask`: StepCheck::judge(), or, in searches, StepCheck::estimate().
   ObjectiveVerdict judge(const StepQuestion& question, const RunContext& context, Ask ask = &StepCheck::judge) const;

@@ -42,15 +42,16 @@ inline double resting_distance(double size) { return 1e-3 * size; }
 /// The guided distance if the motion has one (0 for a part that only rests), else the length of the path; input units.
 DISMANTLE_API double stated_distance(const MotionSummary& motion, std::optional<double> guided, double size);
 
+/// How a motion is told.
+struct MotionPhrase {
+  TextUnit unit;             ///< of lengths
+  bool y_up = false;         ///< as in motion_words()
+  double size = 1;           ///< largest edge of the assembly, input units
+  bool disassembly = false;  ///< the part leaves
+};
 /// The words of motion_words() with the guided distance instead of the length of the path: "12 mm down (-Z)", or
 /// "down (-Z), until it seats" (in the disassembly "up (+Z), free at once") for a part that only rests on the others.
-/// `motion` and `guided` are in input units, `size` is the largest edge of the assembly.
-struct MotionPhrase {
-  TextUnit unit;
-  bool y_up = false;
-  double size = 1;
-  bool disassembly = false;
-};
+/// `motion` and `guided` are in input units.
 DISMANTLE_API std::string travel_words(const MotionSummary& motion, std::optional<double> guided,
                                        const MotionPhrase& phrase, const Eigen::Quaterniond& lies);
 
