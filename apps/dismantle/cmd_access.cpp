@@ -223,7 +223,8 @@ int access(const AccessOptions& options) {
     fmt::print("{}", csv_of(answers, plan));
   } else {
     std::string text = text_of(answers, plan);
-    if (!unusable.empty()) text += fmt::format("left out, because they could not be used: {}\n", fmt::join(unusable, ", "));
+    if (!unusable.empty())
+      text += fmt::format("left out, because they could not be used: {}\n", fmt::join(unusable, ", "));
     if (interrupted) text += "interrupted: this is what was known until then\n";
     console.text(text);
   }
@@ -254,10 +255,14 @@ void add_access(CLI::App& app, Action& action) {
       ->option_text("text|csv|json");
   add_verbosity(*command, options->console);
   command->footer(
-      "The depth of disassembly of EN 45554: the fewest steps until a part is out. A step takes out one part, or parts\n"
-      "that are kept together. The assembly is planned once; what is in the way of what is found out once for all parts.\n"
-      "A depth of \"2 to 3\" is not proved to be the least. Writes no files. Ctrl-C once stops soon and prints what is known.\n"
-      "Exit status: 0 a way to each of these parts is known; 1 not so, or only by force, or some parts could not be used;\n"
+      "The depth of disassembly of EN 45554: the fewest steps until a part is out. A step takes out one part, or "
+      "parts\n"
+      "that are kept together. The assembly is planned once; what is in the way of what is found out once for all "
+      "parts.\n"
+      "A depth of \"2 to 3\" is not proved to be the least. Writes no files. Ctrl-C once stops soon and prints what is "
+      "known.\n"
+      "Exit status: 0 a way to each of these parts is known; 1 not so, or only by force, or some parts could not be "
+      "used;\n"
       "2 usage or configuration; 3 unusable input; 4 a plugin failed; 130 interrupted.\n"
       "Examples:\n"
       "  dismantle access gearbox/\n"

@@ -243,7 +243,8 @@ void add_plan(CLI::App& app, Action& action) {
   command->add_option("--part", options->part, "Plan just this part's path, all other parts fixed")
       ->option_text("NAME");
   options->config.add_components(*command);
-  options->config.add_key(*command, "--target", "constraints.target", "NAME", "Take this part out, in as few steps as possible");
+  options->config.add_key(*command, "--target", "constraints.target", "NAME",
+                          "Take this part out, in as few steps as possible");
   options->config.add_key(*command, "--seed", "run.seed", "N", "Seed");
   options->config.add_key(*command, "--path-timeout", "run.path_timeout", "S", "Seconds for one attempt, 0 = no limit");
   options->config.add_key(*command, "--timeout", "run.timeout", "S", "Seconds for the whole run, 0 = no limit");

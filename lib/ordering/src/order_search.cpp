@@ -16,9 +16,12 @@ namespace {
 
 bool is_done(const Task& task, const UnitSet& left) {
   switch (task.end) {
-    case End::one_left: return left.size() <= 1;
-    case End::exactly: return left == task.goal;
-    case End::target: return !left.contains(task.target) || left.size() <= 1;
+    case End::one_left:
+      return left.size() <= 1;
+    case End::exactly:
+      return left == task.goal;
+    case End::target:
+      return !left.contains(task.target) || left.size() <= 1;
   }
   return true;
 }
@@ -27,8 +30,10 @@ bool is_done(const Task& task, const UnitSet& left) {
 bool fits(const Task& task, const UnitSet& leaving, const UnitSet& left) {
   if (!left.includes(leaving) || leaving == left) return false;
   switch (task.end) {
-    case End::one_left: return true;
-    case End::exactly: return !leaving.intersects(task.goal);
+    case End::one_left:
+      return true;
+    case End::exactly:
+      return !leaving.intersects(task.goal);
     case End::target:
       return task.bound->useful().includes(leaving) && (!leaving.contains(task.target) || leaving.size() == 1);
   }
@@ -91,8 +96,8 @@ double cost_of(Problem& problem, const Task& task, const std::vector<VariantId>&
   return state.cost + settled(problem, state, task.next);
 }
 
-/// Each unit that has to leave alone costs at least its cheapest variant. Such units of which no two have a common class
-/// need as many changes of the class as there are, less one.
+/// Each unit that has to leave alone costs at least its cheapest variant. Such units of which no two have a common
+/// class need as many changes of the class as there are, less one.
 double lower_bound(Problem& problem, const Task& task, const UnitSet& left, VariantId last) {
   double sum = last == kNone ? 0 : problem.least(last), most = 0;
   if (task.end == End::target) return sum + (is_done(task, left) ? 0 : task.bound->of(left));
@@ -207,7 +212,8 @@ std::vector<VariantId> successors(Problem& problem, const Task& task, const Node
   // Half of the places are for changes, so that a change can be found out to be worth it.
   const std::size_t kept = std::min(like.size(), most - std::min(other.size(), most / 2));
   like.resize(kept);
-  like.insert(like.end(), other.begin(), other.begin() + static_cast<std::ptrdiff_t>(std::min(other.size(), most - kept)));
+  like.insert(like.end(), other.begin(),
+              other.begin() + static_cast<std::ptrdiff_t>(std::min(other.size(), most - kept)));
   return like;
 }
 

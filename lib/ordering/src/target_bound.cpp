@@ -42,8 +42,8 @@ void TargetBound::add_ways(std::size_t unit) {
   }
 }
 
-/// A unit that is removed for the sake of the target is the first of a row of units, each of them in the way of the next,
-/// which all leave, one after the other, and the target last.
+/// A unit that is removed for the sake of the target is the first of a row of units, each of them in the way of the
+/// next, which all leave, one after the other, and the target last.
 void TargetBound::find_useful(const UnitSet& start, double known) {
   using Entry = std::pair<double, std::size_t>;  // least cost of such a row, unit
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
@@ -74,8 +74,8 @@ void TargetBound::find_useful(const UnitSet& start, double known) {
   if (target_may_stay_) useful_.insert(target_);
 }
 
-/// For each unit the way that costs least with all that has to leave before, each of these counted by itself, as far as it
-/// does not leave in any case; in the order in which they can leave. The last one is the target's, or there is none.
+/// For each unit the way that costs least with all that has to leave before, each of these counted by itself, as far as
+/// it does not leave in any case; in the order in which they can leave. The last one is the target's, or there is none.
 std::vector<const TargetBound::Way*> TargetBound::supported(const UnitSet& left, const UnitSet& in_any_case) const {
   constexpr double kShare = 1e-3;  // of the cost of what leaves in any case
   struct Open {

@@ -14,7 +14,8 @@ namespace {
 /// Units that block each other at random, in circles, too; some leave in pairs.
 class Random final : public Problem {
  public:
-  Random(std::size_t units, std::uint64_t seed, bool remembers) : of_unit_(units), in_pair_(units), remembers_(remembers) {
+  Random(std::size_t units, std::uint64_t seed, bool remembers)
+      : of_unit_(units), in_pair_(units), remembers_(remembers) {
     Rng rng(seed);
     for (std::size_t u = 0; u < units; ++u)
       for (std::size_t k = rng.below(4); k > 0; --k) add(rng, {u});
@@ -70,8 +71,8 @@ double cheapest(Random& problem, const UnitSet& left, std::size_t target, Varian
       const UnitSet& leaving = problem.leaving(v);
       if (!left.includes(leaving) || leaving == left || (leaving.contains(target) && leaving.size() > 1)) continue;
       if (problem.may_leave(v, left))
-        best = std::min(best, (last == kNone ? 0 : problem.cost(last, left, v)) +
-                                  cheapest(problem, left - leaving, target, v));
+        best = std::min(
+            best, (last == kNone ? 0 : problem.cost(last, left, v)) + cheapest(problem, left - leaving, target, v));
     }
   });
   return best;

@@ -42,8 +42,8 @@ PartAccess access_as_planned(PartId part, const Disassembly& plan, const Constra
 }
 
 struct Access::Impl {
-  Impl(const Assembly& assembly, const Disassembly& plan_, const Constraints& constraints_,
-       const Objective& objective_, const Verifier& verifier, const RunContext& context_)
+  Impl(const Assembly& assembly, const Disassembly& plan_, const Constraints& constraints_, const Objective& objective_,
+       const Verifier& verifier, const RunContext& context_)
       : plan(plan_),
         constraints(constraints_),
         objective(objective_),

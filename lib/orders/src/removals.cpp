@@ -14,11 +14,11 @@
 
 namespace dismantle {
 
+using Eigen::Vector3d;
 using order::kForbidden;
 using order::kNone;
 using order::UnitSet;
 using order::VariantId;
-using Eigen::Vector3d;
 
 namespace {
 
@@ -52,8 +52,8 @@ bool is_straight(const Path& path) {
   for (std::size_t i = 0; i < path.front().size(); ++i)
     for (const std::vector<Pose>& poses : path) {
       const Vector3d way = poses[i].t - path.front()[i].t;
-      if (!poses[i].q.isApprox(path.front()[i].q, 1e-12) || (way - way.dot(out) * out).norm() > 1e-9 * (1 + way.norm()) ||
-          way.dot(out) < 0)
+      if (!poses[i].q.isApprox(path.front()[i].q, 1e-12) ||
+          (way - way.dot(out) * out).norm() > 1e-9 * (1 + way.norm()) || way.dot(out) < 0)
         return false;
     }
   return !out.isZero();
@@ -63,11 +63,7 @@ bool is_straight(const Path& path) {
 
 Removals::Removals(const Assembly& assembly, const Disassembly& plan, const Constraints& constraints,
                    const Objective& objective, const Verifier& verifier, const RunContext& context)
-    : assembly_(assembly),
-      constraints_(constraints),
-      objective_(objective),
-      verifier_(verifier),
-      context_(context) {
+    : assembly_(assembly), constraints_(constraints), objective_(objective), verifier_(verifier), context_(context) {
   Aabb all;
   for (const Part& part : assembly.parts) all.extend(part.mesh->box());
   if (!all.empty()) far_ = 1.1 * all.size().norm();
@@ -128,7 +124,8 @@ void Removals::add_planned(const Disassembly& plan) {
     way.out = last_direction(way.path);
     // A straight one is looked at again, on a path as long as it takes to be past everything.
     if (is_straight(way.path))
-      way.straight = true, way.path = {way.path.front(), std::vector<Pose>(way.parts.size(), {far_ * way.out, Pose{}.q})};
+      way.straight = true,
+      way.path = {way.path.front(), std::vector<Pose>(way.parts.size(), {far_ * way.out, Pose{}.q})};
     else
       way.free = rest;
     add(std::move(way));
@@ -201,7 +198,8 @@ const UnitSet& Removals::blocking(VariantId v) {
   (UnitSet(units(), true) - way.free - way.blocking - way.units).each([&](std::size_t u) { open.push_back(u); });
   std::vector<char> answers(open.size());
   parallel_for(
-      open.size(), context_, [&](std::size_t i) { answers[i] = in_the_way(way, open[i]) ? 1 : 0; }, [] { return false; });
+      open.size(), context_, [&](std::size_t i) { answers[i] = in_the_way(way, open[i]) ? 1 : 0; },
+      [] { return false; });
   for (std::size_t i = 0; i < open.size(); ++i) (answers[i] != 0 ? way.blocking : way.free).insert(open[i]);
   way.needs = way.blocking;
   way.units.each([&](std::size_t u) { way.needs |= needs_gone_[u]; });
@@ -260,7 +258,8 @@ double Removals::cost(VariantId v, const UnitSet& rest, VariantId previous) {
     auto known = costs_.find(key);
     if (known == costs_.end()) {
       const StepVerdict verdict = judge(item, v, rest, key.previous);
-      known = costs_.emplace(std::move(key), item.require && !verdict.allowed ? kForbidden : item.weight * verdict.cost).first;
+      known = costs_.emplace(std::move(key), item.require && !verdict.allowed ? kForbidden : item.weight * verdict.cost)
+                  .first;
     }
     if (known->second == kForbidden) return kForbidden;
     if (by_objective_) sum += known->second;
@@ -272,10 +271,16 @@ StepVerdict Removals::judge(const ObjectiveItem& item, VariantId v, const UnitSe
   const std::vector<PlacedPart> moving = placed(ways_[v].units), present = placed(rest);
   std::vector<PlacedPart> put_in;
   if (previous != kNone) put_in = placed(ways_[previous].units);
-  const StepQuestion before{assembly_, put_in, {}, previous == kNone ? Vector3d(Vector3d::Zero()) : Vector3d(-ways_[previous].out),
-                            nullptr, objective_.up};
-  const StepQuestion question{assembly_,    moving,        present, Vector3d(-ways_[v].out), nullptr,
-                              objective_.up, previous == kNone ? nullptr : &before};
+  const StepQuestion before{assembly_, put_in,
+                            {},        previous == kNone ? Vector3d(Vector3d::Zero()) : Vector3d(-ways_[previous].out),
+                            nullptr,   objective_.up};
+  const StepQuestion question{assembly_,
+                              moving,
+                              present,
+                              Vector3d(-ways_[v].out),
+                              nullptr,
+                              objective_.up,
+                              previous == kNone ? nullptr : &before};
   try {
     StepVerdict verdict = item.check->judge(question, context_);
     if (!(verdict.cost >= 0)) throw Error("its cost is not a number from 0 on");

@@ -156,7 +156,8 @@ class Rewriting {
     if (best) scene_.ups.push_back(best);
   }
 
-  std::vector<Step> search_to_target(Segment& segment, PartId target, const order::StepsToTarget& planned, double before) {
+  std::vector<Step> search_to_target(Segment& segment, PartId target, const order::StepsToTarget& planned,
+                                     double before) {
     const order::UnitSet all(segment.units(), true);
     const std::vector<VariantId> first = segment.as_planned();
     order::Task task;

@@ -27,8 +27,8 @@ struct Block {
 /// everything of that group and of those that it makes comes last of all, in the order of the plan.
 std::vector<Block> blocks_of(const std::vector<Removal>& plan, OrderScene& scene);
 
-/// The steps of the plan that take parts out of the group of the target, up to the one that takes the target out. `whole`:
-/// these are all steps that are needed, and each of them is one that a search can put elsewhere.
+/// The steps of the plan that take parts out of the group of the target, up to the one that takes the target out.
+/// `whole`: these are all steps that are needed, and each of them is one that a search can put elsewhere.
 struct StepsToTarget {
   std::vector<const Removal*> steps;
   bool whole = false;

@@ -119,8 +119,13 @@ void Segment::add_moves(const std::vector<const Removal*>& planned) {
 
 /// `present`: what the step leaves behind.
 void Segment::add_planned(const Removal* planned, const UnitSet& present) {
-  Move move{{planned->parts, {}, planned, insertion_of(scene_.query.assembly, *planned)}, UnitSet(units()), present,
-            UnitSet(units()), {}, {}, 0};
+  Move move{{planned->parts, {}, planned, insertion_of(scene_.query.assembly, *planned)},
+            UnitSet(units()),
+            present,
+            UnitSet(units()),
+            {},
+            {},
+            0};
   for (const PartId id : planned->parts) move.units.insert(unit_of_.at(id));
   // A straight step is found again among the straight motions, with a path as long as it has to be.
   if (scene_.sweep != nullptr && is_straight(planned->attempt->path()))
@@ -142,8 +147,13 @@ void Segment::add_straight(std::size_t unit) {
       return m.units.contains(unit) && m.units.size() == 1 && m.motion.direction == d;
     });
     if (there) continue;
-    Move move{{ids_of(parts_[unit]), d, nullptr, -scene_.directions.all[d]}, UnitSet(units()), UnitSet(units()),
-              UnitSet(units()), {}, {}, 0};
+    Move move{{ids_of(parts_[unit]), d, nullptr, -scene_.directions.all[d]},
+              UnitSet(units()),
+              UnitSet(units()),
+              UnitSet(units()),
+              {},
+              {},
+              0};
     move.units.insert(unit);
     add(std::move(move));
   }

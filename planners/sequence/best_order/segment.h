@@ -11,8 +11,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "dismantle/ordering/order_search.h"
 #include "blocking_graph/relations.h"
+#include "dismantle/ordering/order_search.h"
 #include "dismantle/sequence_planner.h"
 
 namespace dismantle::order {
@@ -47,8 +47,8 @@ class Segment final : public Problem {
   /// `start`: the group; `planned`: its steps in the order of the first plan. All references must outlive this.
   Segment(OrderScene& scene, std::vector<PlacedPart> start, std::vector<const Removal*> planned);
   struct ToTarget {};
-  /// For the way to one part: all units can leave, straight or, alone or together, as in a planned step. `planned`: steps
-  /// out of `start`, one after the other.
+  /// For the way to one part: all units can leave, straight or, alone or together, as in a planned step. `planned`:
+  /// steps out of `start`, one after the other.
   Segment(OrderScene& scene, std::vector<PlacedPart> start, std::vector<const Removal*> planned, ToTarget);
 
   std::size_t units() const override { return parts_.size(); }

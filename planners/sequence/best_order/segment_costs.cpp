@@ -45,8 +45,9 @@ double Segment::cost(VariantId v, const UnitSet& rest, VariantId previous) {
     const bool reads_rest = item.traits.reads_present || item.traits.reads_path;
     CostKey key{v, memory(item, previous), reads_rest ? rest : UnitSet()};
     const auto known = item.known.find(key);
-    const double cost = known != item.known.end() ? known->second
-                                                   : item.known.emplace(std::move(key), judge(item, v, rest, previous)).first->second;
+    const double cost = known != item.known.end()
+                            ? known->second
+                            : item.known.emplace(std::move(key), judge(item, v, rest, previous)).first->second;
     sum += cost == 0 ? 0 : item.item->weight * cost;
     if (cost == kForbidden) return kForbidden;
   }
@@ -90,8 +91,12 @@ double Segment::judge(const Item& item, VariantId v, const UnitSet& rest, Varian
     } else {
       const Move& earlier = moves_[variants_[previous].move];
       const std::vector<PlacedPart> put_in = moving_of(earlier);
-      const StepQuestion before{scene_.query.assembly,    put_in,  nothing,
-                                earlier.motion.insertion, nullptr, scene_.ups[variants_[previous].up].value_or(drawn),
+      const StepQuestion before{scene_.query.assembly,
+                                put_in,
+                                nothing,
+                                earlier.motion.insertion,
+                                nullptr,
+                                scene_.ups[variants_[previous].up].value_or(drawn),
                                 nullptr};
       StepQuestion with = question;
       with.previous = &before;
@@ -109,7 +114,8 @@ const std::vector<PlacedPart>& Segment::present(const UnitSet& rest) {
     present_of_ = rest;
     present_.clear();
     rest.each([&](std::size_t u) { present_.insert(present_.end(), parts_[u].begin(), parts_[u].end()); });
-    std::sort(present_.begin(), present_.end(), [](const PlacedPart& a, const PlacedPart& b) { return a.part < b.part; });
+    std::sort(present_.begin(), present_.end(),
+              [](const PlacedPart& a, const PlacedPart& b) { return a.part < b.part; });
   }
   return present_;
 }

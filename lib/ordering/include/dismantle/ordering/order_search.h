@@ -61,8 +61,8 @@ struct Task {
   UnitSet goal{};
   std::size_t target = 0;
   TargetBound* bound = nullptr;  ///< End::target: of the cost; must outlive this
-  VariantId last = kNone;  ///< that left just before `start`; its cost counts
-  VariantId next = kNone;  ///< that leaves just afterwards
+  VariantId last = kNone;        ///< that left just before `start`; its cost counts
+  VariantId next = kNone;        ///< that leaves just afterwards
 };
 
 /// A budget that is counted, not timed.
@@ -108,7 +108,8 @@ struct WayToTarget {
   double floor = 0;  ///< the same, even if may_leave() has taken what is not known for an obstacle
   bool complete = false;
 };
-/// First by the costs that each step has at least, with those units only that a cheap order can need; then by all costs.
+/// First by the costs that each step has at least, with those units only that a cheap order can need; then by all
+/// costs.
 WayToTarget way_to(Problem& problem, const UnitSet& start, std::size_t target, double known, Effort& effort);
 
 /// Beam search, as wide as the effort allows.

@@ -17,8 +17,8 @@
 
 namespace dismantle::fake {
 
-/// A block on a lattice that was cut into boxes. With `angular`, some parts are several of them. With `tub`, the last part
-/// stands around them, open at the top, where it may cover some of them; it never moves.
+/// A block on a lattice that was cut into boxes. With `angular`, some parts are several of them. With `tub`, the last
+/// part stands around them, open at the top, where it may cover some of them; it never moves.
 struct Lattice {
   using Corner = std::array<int, 3>;  ///< a cell, or a corner of cells
   static constexpr int kSize = 5;
@@ -106,7 +106,8 @@ struct Lattice {
       std::optional<unsigned> changes;
       for (const auto& [state, so_far] : layer) {
         const auto [present, last] = state;
-        if ((present >> target & 1U) == 0 || std::popcount(present) == 1) changes = std::min(changes.value_or(so_far), so_far);
+        if ((present >> target & 1U) == 0 || std::popcount(present) == 1)
+          changes = std::min(changes.value_or(so_far), so_far);
         for (PartId id = 0; id < parts; ++id)
           for (int way = 0; (present >> id & 1U) != 0 && way < 6; ++way) {
             if (contains(constraints.base, id) || (present & in_the_way[id][way]) != 0) continue;
