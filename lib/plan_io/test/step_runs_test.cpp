@@ -33,8 +33,8 @@ Row random_row(Rng& rng) {
     Part part;
     part.id = static_cast<PartId>(i);
     part.name = name;
-    part.mesh = part.surface = std::make_shared<Mesh>(
-        shapes::box({4.0 * double(i), 0, 0}, {4.0 * double(i) + 1, 1, shape == 0 ? 1.0 : 3.0}));
+    part.mesh = part.surface =
+        std::make_shared<Mesh>(shapes::box({4.0 * double(i), 0, 0}, {4.0 * double(i) + 1, 1, shape == 0 ? 1.0 : 3.0}));
     out.assembly.parts.push_back(part);
     out.plan.assembly.parts.push_back({part.id, name, "x.step"});
     out.plan.assembly.parts.back().product = product;
@@ -105,7 +105,8 @@ TEST(StepRuns, BackwardsTheRunsAreTheSameSteps) {
     for (const auto& run : page["disassembly"]) apart.push_back({run["first"], run["count"]});
     for (const auto& run : page["assembly"]) back.push_back({run["first"], run["count"]});
     ASSERT_EQ(apart.size(), back.size());
-    ASSERT_EQ(apart.size(), static_cast<std::size_t>(std::ranges::count_if(runs, [](const StepRun& r) { return r.count > 1; })));
+    ASSERT_EQ(apart.size(),
+              static_cast<std::size_t>(std::ranges::count_if(runs, [](const StepRun& r) { return r.count > 1; })));
     for (std::size_t r = 0; r < apart.size(); ++r) {
       const StepRun& mirrored = back[apart.size() - 1 - r];
       EXPECT_EQ(mirrored.count, apart[r].count);
@@ -124,8 +125,10 @@ TEST(StepRuns, MarkdownHasARowPerRunWithAllNamesAndNumbers) {
       if (line.starts_with("| ") && !line.starts_with("| step")) rows.push_back(line);
     ASSERT_EQ(rows.size(), runs.size());
     for (std::size_t r = 0; r < runs.size(); ++r) {
-      const unsigned first = static_cast<unsigned>(runs[r].first + 1), last = first + static_cast<unsigned>(runs[r].count) - 1;
-      const std::string numbers = first == last ? std::to_string(first) : std::to_string(first) + "–" + std::to_string(last);
+      const unsigned first = static_cast<unsigned>(runs[r].first + 1),
+                     last = first + static_cast<unsigned>(runs[r].count) - 1;
+      const std::string numbers =
+          first == last ? std::to_string(first) : std::to_string(first) + "–" + std::to_string(last);
       EXPECT_TRUE(rows[r].starts_with("| " + numbers + " |")) << rows[r];
       for (std::size_t s = runs[r].first; s < runs[r].first + runs[r].count; ++s) {
         std::string name = row.plan.disassembly[s].moves[0].part;
@@ -133,7 +136,8 @@ TEST(StepRuns, MarkdownHasARowPerRunWithAllNamesAndNumbers) {
         EXPECT_NE(rows[r].find(name), std::string::npos) << rows[r];
       }
       // It waits for the step before the run alone.
-      EXPECT_NE(rows[r].find(first == 1 ? "| - |" : "| " + std::to_string(first - 1) + " |"), std::string::npos) << rows[r];
+      EXPECT_NE(rows[r].find(first == 1 ? "| - |" : "| " + std::to_string(first - 1) + " |"), std::string::npos)
+          << rows[r];
     }
   });
 }

@@ -50,8 +50,8 @@ class Runs {
 
   bool alike(std::size_t a, std::size_t b) const {
     const PlanStep &first = plan_.disassembly[a], &other = plan_.disassembly[b];
-    return !first.forced && !other.forced && !first.moves.empty() && !first.separates.empty() && taken_[a] == taken_[b] &&
-           first.up == other.up && alike(motions_[a], motions_[b]);
+    return !first.forced && !other.forced && !first.moves.empty() && !first.separates.empty() &&
+           taken_[a] == taken_[b] && first.up == other.up && alike(motions_[a], motions_[b]);
   }
 
  private:
@@ -132,7 +132,8 @@ PartShapes shapes_of(const Plan& plan) {
     if (body != body_of.end())
       out.push_back(numbers.try_emplace(Key{body->second.first, body->second.second, "", "", ""}, i).first->second);
     else if (!part.product.empty())
-      out.push_back(numbers.try_emplace(Key{part.product, 0, stem_of(part.name), kind.kind, kind.size}, i).first->second);
+      out.push_back(
+          numbers.try_emplace(Key{part.product, 0, stem_of(part.name), kind.kind, kind.size}, i).first->second);
     else
       out.push_back(i);
   }
