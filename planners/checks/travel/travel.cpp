@@ -13,6 +13,33 @@ constexpr double kSpacing = 1.0 / 32;      // of samples along the way, in sizes
 constexpr std::size_t kMostSamples = 200;  // of a step
 constexpr std::size_t kMostPoints = 128;   // of a moving part
 
+// Rounding of a plan must not decide about round figures of a design: neither a number of samples nor what is close.
+constexpr double kOff = 0.37, kGapShare = 0.9991;
+
+/// Vertices, and points that are spread over the area: large triangles get many.
+std::vector<Eigen::Vector3d> points_of(const Mesh& mesh) {
+  std::vector<Eigen::Vector3d> points;
+  const std::size_t stride = 1 + mesh.vertices.size() / kMostPoints;
+  for (std::size_t v = 0; v < mesh.vertices.size(); v += stride) points.push_back(mesh.vertices[v]);
+  const auto half_area = [&](std::size_t t) {
+    return (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0)).norm();
+  };
+  double whole = 0, passed = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) whole += half_area(t);
+  std::size_t taken = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    passed += half_area(t);
+    for (; (static_cast<double>(taken) + kOff) * whole < passed * kMostPoints; ++taken) {
+      double u =
+          std::fmod(0.7548776662466927 * static_cast<double>(taken), 1.0);  // an even sequence in the unit square
+      double v = std::fmod(0.5698402909980532 * static_cast<double>(taken), 1.0);
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      points.emplace_back((1 - u - v) * mesh.vertex(t, 0) + u * mesh.vertex(t, 1) + v * mesh.vertex(t, 2));
+    }
+  }
+  return points;
+}
+
 }  // namespace
 
 void TravelParams::describe(Schema<TravelParams>& s) {
@@ -31,27 +58,29 @@ const TriangleBvh& Travel::Scene::surface(const Part& part) const {
   return *known;
 }
 
-/// Points of the moving surface against the other one, and corners of the other one against the moving surface.
+const std::vector<Eigen::Vector3d>& Travel::Scene::points(const Part& part) const {
+  const std::lock_guard lock(mutex);
+  auto& known = samples.at(part.id);
+  if (known.empty()) known = points_of(*part.mesh);
+  return known;
+}
+
+/// Points of each surface against the other one.
 bool Travel::touches(const Assembly& assembly, const Scene& scene, const PlacedPart& moving,
                      const PlacedPart& other) const {
-  const double gap = params_.gap * scene.boxes.size();
-  const auto near = [&](const PlacedPart& of, const PlacedPart& to, const Mesh& mesh) {
+  const double gap = kGapShare * params_.gap * scene.boxes.size();
+  const auto near = [&](const PlacedPart& of, const PlacedPart& to) {
     const TriangleBvh& surface = scene.surface(assembly.parts[to.part]);
     const Pose seen = to.pose.inverse() * of.pose;
     Aabb box = scene.boxes.assembled()[to.part];
     box.inflate(gap);
-    const std::size_t stride = 1 + mesh.vertices.size() / kMostPoints;
-    for (std::size_t v = 0; v < mesh.vertices.size(); v += stride) {
-      const Eigen::Vector3d p = seen * mesh.vertices[v];
-      if (box.contains(p) && surface.closest(p, gap).distance < gap) return true;
-    }
-    return false;
+    const std::vector<Eigen::Vector3d>& points = scene.points(assembly.parts[of.part]);
+    return std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
+      const Eigen::Vector3d p = seen * point;
+      return box.contains(p) && surface.closest(p, gap).distance < gap;
+    });
   };
-  const auto surface_of = [&](PartId id) -> const Mesh& {
-    const Part& part = assembly.parts[id];
-    return part.surface ? *part.surface : *part.mesh;
-  };
-  return near(moving, other, surface_of(moving.part)) || near(other, moving, surface_of(other.part));
+  return near(moving, other) || near(other, moving);
 }
 
 StepVerdict Travel::verdict_of(const StepQuestion& question, const Scene& scene, const Close& close) const {
@@ -70,7 +99,7 @@ StepVerdict Travel::verdict_of(const StepQuestion& question, const Scene& scene,
     whole += lengths[k];
   }
   if (!(whole > 0)) return verdict;
-  const double gap = params_.gap * size, spacing = std::max(kSpacing * size, whole / kMostSamples);
+  const double gap = kGapShare * params_.gap * size, spacing = std::max(kSpacing * size, whole / kMostSamples);
   std::vector<Aabb> present;
   for (const PlacedPart& p : question.present) {
     present.push_back(scene.boxes.of(p));
@@ -79,7 +108,7 @@ StepVerdict Travel::verdict_of(const StepQuestion& question, const Scene& scene,
   double tight = 0;
   std::vector<PlacedPart> moving(question.moving.begin(), question.moving.end());
   for (std::size_t k = 1; k < path.size(); ++k) {
-    const auto pieces = static_cast<std::size_t>(std::ceil(lengths[k] / spacing));
+    const auto pieces = static_cast<std::size_t>(std::ceil(lengths[k] / spacing + kOff));
     for (std::size_t s = 0; s < pieces; ++s) {
       const double u = (static_cast<double>(s) + 0.5) / static_cast<double>(pieces);
       for (std::size_t i = 0; i < moving.size(); ++i) moving[i].pose = screw_interpolate(path[k - 1][i], path[k][i], u);

@@ -33,14 +33,17 @@ class Travel final : public StepCheck {
 
  private:
   struct Scene {
-    explicit Scene(const Assembly& assembly) : boxes(assembly), surfaces(assembly.parts.size()) {}
+    explicit Scene(const Assembly& assembly)
+        : boxes(assembly), surfaces(assembly.parts.size()), samples(assembly.parts.size()) {}
     bool is_of(const Assembly& assembly) const { return boxes.is_of(assembly); }
     const TriangleBvh& surface(const Part& part) const;
+    const std::vector<Eigen::Vector3d>& points(const Part& part) const;
     geometry::PartBoxes boxes;
 
    private:
     mutable std::mutex mutex;
     mutable std::vector<std::unique_ptr<const TriangleBvh>> surfaces;
+    mutable std::vector<std::vector<Eigen::Vector3d>> samples;
   };
   /// Are the moving parts, at these poses, close to a present part whose box is within the gap?
   using Close = std::function<bool(const std::vector<PlacedPart>& moving, const std::vector<const PlacedPart*>& near)>;
