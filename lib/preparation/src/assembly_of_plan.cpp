@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "dismantle/errors.h"
@@ -74,6 +75,13 @@ void recognise_flexible_of(const Plan& plan, Assembly& assembly, const RunContex
   if (!named.empty()) recognise_flexible(assembly, context, &named);
 }
 
+/// What parts are is read off the plan: step checks judge again by what they knew.
+void set_kinds_of(const Plan& plan, Assembly& assembly) {
+  std::map<std::string, const PlanPart*> planned;
+  for (const PlanPart& part : plan.assembly.parts) planned[part.name] = &part;
+  for (Part& part : assembly.parts) part.kind = planned.at(part.name)->kind;
+}
+
 }  // namespace
 
 Assembly assembly_of_plan(const Plan& plan, InputParts input, const std::string& source, RunContext& context) {
@@ -96,6 +104,7 @@ Assembly assembly_of_plan(const Plan& plan, InputParts input, const std::string&
                        fmt::format("part '{}', which the plan is about, cannot be used: {}", part.name, part.reason));
   set_normalization(assembly, {plan.assembly.scale, plan.assembly.center});
   recognise_flexible_of(plan, assembly, context);
+  set_kinds_of(plan, assembly);
   for (const PlanOverlap& o : plan.assembly.overlaps)
     if (o.declared && !o.flexible) declare_overlap(assembly, o.a, o.b, *o.declared);
   return assembly;

@@ -13,7 +13,8 @@ namespace dismantle::checks {
 
 namespace {
 
-constexpr double kTouching = 1e-3;  // of the size of the assembly
+// Of the size of the assembly. No round figure, so that the rounding of a plan decides about no gap of a design.
+constexpr double kTouching = 1.03e-3;
 constexpr double kWorthWords = 0.005;
 
 /// What an operation leaves, in ascending order.

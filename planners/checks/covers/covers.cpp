@@ -11,7 +11,7 @@ namespace dismantle::checks {
 namespace {
 
 constexpr double kSteep = 0.7;    // cosine: within 45 degrees of `up`
-constexpr double kMargin = 1e-9;  // of the share that is covered
+constexpr double kMargin = 1e-3;  // relative: what rounding must not decide, as between equal parts
 
 /// Rows: two directions across `up`, along axes if `up` is along one, and `up`.
 Eigen::Matrix3d frame_of(const Eigen::Vector3d& up) {
@@ -44,13 +44,13 @@ StepVerdict Covers::judge(const StepQuestion& question, const RunContext& /*cont
   const std::shared_ptr<const geometry::PartBoxes> boxes = boxes_.of(question.assembly);
   const Eigen::Matrix3d frame = frame_of(question.up);
   const Aabb own = boxes->of(question.moving, frame);
-  const double middle = own.center().z(), size = geometry::half_surface(own);
+  const double middle = own.center().z() + kMargin * own.size().z(), size = geometry::half_surface(own);
   const PlacedPart* cover = nullptr;
   for (const PlacedPart& p : question.present) {
     const Aabb box = boxes->of(p, frame);
-    if (box.lo.z() < middle || geometry::half_surface(box) <= size) continue;
+    if (box.lo.z() < middle || geometry::half_surface(box) <= (1 + kMargin) * size) continue;
     const double share = covered_share(own, box);
-    if (share <= verdict.cost + kMargin) continue;
+    if (share <= verdict.cost) continue;
     verdict.cost = share;
     cover = &p;
   }

@@ -18,7 +18,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFinger = 20;      // mm: the room that a finger needs beside a part, and the depth it reaches
+// mm: the room that a finger needs beside a part, and the depth it reaches. No round figure, so that rounding decides
+// about no wall of a design.
+constexpr double kFinger = 20.03;
 constexpr double kHeavy = 4.5;      // kg, 10 pounds
 constexpr double kFromBelow = 0.7;  // cosine to `up`
 constexpr double kSameUp = 0.995;   // cosine, as the check `reorientations`

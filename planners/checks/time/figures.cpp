@@ -13,6 +13,9 @@ constexpr std::array<std::array<double, 10>, 4> kOneHand{{{1.13, 1.43, 1.88, 1.6
                                                           {1.8, 2.1, 2.55, 2.36, 2.85, 2.57, 2.9, 3.38, 3.18, 3.7},
                                                           {1.95, 2.25, 2.7, 2.51, 3.0, 2.73, 3.06, 3.55, 3.34, 4.0}}};
 constexpr double kLargeSize = 381;  // mm, 15 inches: two hands
+constexpr double kEqual = 1e-3;     // relative: a sheet of 2 mm is not thicker than 2 mm
+
+bool above(double length, double limit) { return length > (1 + kEqual) * limit; }
 
 Figure figure(double seconds, std::size_t row, std::size_t column) {
   return {seconds, std::to_string(row) + std::to_string(column)};
@@ -22,11 +25,12 @@ Figure figure(double seconds, std::size_t row, std::size_t column) {
 
 Figure handling(const Handled& part) {
   if (part.heavy) return part.alpha < 360 ? figure(3, 9, 4) : figure(4, 9, 5);
-  if (part.size > kLargeSize) return part.alpha < 360 ? figure(2, 9, 0) : figure(3, 9, 1);
+  if (above(part.size, kLargeSize)) return part.alpha < 360 ? figure(2, 9, 0) : figure(3, 9, 1);
   const double turn = part.alpha + part.beta;
   const std::size_t row = turn < 360 ? 0 : turn < 540 ? 1 : turn < 720 ? 2 : 3;
-  const std::size_t thick = part.size > 15 ? 0 : part.size >= 6 ? 1 : 2, thin = part.size > 6 ? 3 : 4;
-  const std::size_t column = (part.thickness > 2 ? thick : thin) + (part.tangles ? 5 : 0);
+  const std::size_t thick = above(part.size, 15) ? 0 : part.size >= (1 - kEqual) * 6 ? 1 : 2;
+  const std::size_t thin = above(part.size, 6) ? 3 : 4;
+  const std::size_t column = (above(part.thickness, 2) ? thick : thin) + (part.tangles ? 5 : 0);
   return figure(kOneHand[row][column], row, column);
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 namespace dismantle::checks {
 namespace {
 
@@ -30,6 +32,18 @@ TEST(Figures, AreThoseOfTheTables) {
   EXPECT_EQ(insertion({.secured = Secured::screwed, .resisting = true}).seconds, 8);
   EXPECT_EQ(insertion({.secured = Secured::screwed, .obstructed = true}).code, "48");
   EXPECT_EQ(insertion({.secured = Secured::screwed, .obstructed = true}).seconds, 8.5);
+}
+
+// Law: rounding of lengths that are limits of the tables changes nothing.
+TEST(Figures, RoundingDecidesNothing) {
+  for (const double size : {6.0, 15.0, 381.0})
+    for (const double thickness : {2.0, 5.0}) {
+      const std::string code = handling({.size = size, .thickness = thickness}).code;
+      for (const double factor : {1 - 1e-6, 1 + 1e-6})
+        EXPECT_EQ(handling({.size = size * factor, .thickness = thickness * factor}).code, code) << size;
+    }
+  EXPECT_EQ(handling({.size = 20, .thickness = 2}).code, "33");
+  EXPECT_EQ(handling({.size = 20, .thickness = 2.1}).code, "30");
 }
 
 // Law: what is harder never takes less time.
