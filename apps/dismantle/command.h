@@ -29,6 +29,9 @@ void add_replay(CLI::App& app, Action& action);
 void add_diff(CLI::App& app, Action& action);
 void add_edit(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
+#ifdef DISMANTLE_SERVE  // without cpp-httplib there is no server
+void add_serve(CLI::App& app, Action& action);
+#endif
 void add_view(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
 void add_book(CLI::App& app, Action& action);

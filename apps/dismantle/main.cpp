@@ -184,6 +184,9 @@ int main(int argc, char** argv) {
   add_compare(app, action);
   add_diff(app, action);
   add_edit(app, action);
+#ifdef DISMANTLE_SERVE
+  add_serve(app, action);
+#endif
   add_view(app, action);
   add_export(app, action);
   add_book(app, action);

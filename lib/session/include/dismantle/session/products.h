@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
+#include <string>
 
 #include "dismantle/export.h"
 #include "dismantle/preparation/products.h"
@@ -11,5 +13,8 @@ namespace dismantle {
 
 /// The products that the importers of the session can read. Throws as the other products_in().
 DISMANTLE_API Products products_in(const std::filesystem::path& folder, const Session& session);
+
+/// Extensions of the files that the importers of the session can read, in lower case, without the dot.
+DISMANTLE_API std::set<std::string> readable_extensions(const Session& session);
 
 }  // namespace dismantle
