@@ -24,7 +24,7 @@ class BytesImporter : public Importer {
   }
 };
 
-std::vector<std::shared_ptr<Importer>> importers() { return {std::make_shared<BytesImporter>()}; }
+std::vector<std::shared_ptr<Importer>> byte_importers() { return {std::make_shared<BytesImporter>()}; }
 
 NameList names(const Products& found) {
   NameList out;
@@ -33,13 +33,13 @@ NameList names(const Products& found) {
 }
 
 TEST(Products, AreTheFilesAndSubFoldersThatCanBeRead) {
-  const TempFolder folder;
+  const shapes::TempFolder folder;
   for (const char* name : {"lamp", "pictures", "10", ".hidden"}) fs::create_directory(folder / name);
   for (const char* file : {"lamp/1.box", "10/a.box", ".hidden/a.box", "2.box", "gearbox.BOX", "case.prt"})
     folder.write(file, "xx");
   folder.write("pictures/1.png", "x");
   folder.write("readme.txt", "x");
-  const Products found = products_in(folder.path(), importers());
+  const Products found = products_in(folder.path(), byte_importers());
   EXPECT_EQ(names(found), (NameList{"2", "10", "gearbox", "lamp"}));
   EXPECT_EQ(found.products[1].input, folder / "10");
   EXPECT_EQ(found.products[2].input, folder / "gearbox.BOX");
@@ -48,34 +48,34 @@ TEST(Products, AreTheFilesAndSubFoldersThatCanBeRead) {
 }
 
 TEST(Products, HaveNamesOfTheirOwn) {
-  const TempFolder folder;
+  const shapes::TempFolder folder;
   fs::create_directory(folder / "lamp");
   folder.write("lamp/1.box", "x");
   folder.write("lamp.box", "x");
-  EXPECT_EQ(names(products_in(folder.path(), importers())), (NameList{"lamp", "lamp.box"}));
+  EXPECT_EQ(names(products_in(folder.path(), byte_importers())), (NameList{"lamp", "lamp.box"}));
   fs::create_directory(folder / "lamp.box.d");
   fs::rename(folder / "lamp.box.d", folder / "lamp.BOX");
   folder.write("lamp.BOX/1.box", "x");
-  EXPECT_EQ(names(products_in(folder.path(), importers())), (NameList{"lamp", "lamp.BOX", "lamp.box"}));
+  EXPECT_EQ(names(products_in(folder.path(), byte_importers())), (NameList{"lamp", "lamp.BOX", "lamp.box"}));
 }
 
 TEST(Products, AFolderWithoutOneIsNoInput) {
-  const TempFolder folder;
-  EXPECT_THROW(products_in(folder.path(), importers()), InputError);
-  EXPECT_THROW(products_in(folder / "none", importers()), InputError);
+  const shapes::TempFolder folder;
+  EXPECT_THROW(products_in(folder.path(), byte_importers()), InputError);
+  EXPECT_THROW(products_in(folder / "none", byte_importers()), InputError);
 }
 
 TEST(Products, AFolderOfThemThatIsReadAsOneAssemblyIsNamed) {
-  const TempFolder folder;
+  const shapes::TempFolder folder;
   folder.write("a.box", "xx");
   folder.write("b.box", "xxx");
   folder.write("c.box", "x");
-  const InputParts three = read_input(folder.path(), importers());
+  const InputParts three = read_input(folder.path(), byte_importers());
   ASSERT_EQ(three.warnings.size(), 1u);
   EXPECT_NE(three.warnings[0].find("2 of the 3 files hold several bodies"), std::string::npos);
   EXPECT_NE(three.warnings[0].find("dismantle plan --each"), std::string::npos);
   folder.write("b.box", "x");
-  EXPECT_TRUE(read_input(folder.path(), importers()).warnings.empty()) << "one file with several is a part";
+  EXPECT_TRUE(read_input(folder.path(), byte_importers()).warnings.empty()) << "one file with several is a part";
 }
 
 }  // namespace
