@@ -102,12 +102,12 @@ const std::vector<PluginSection>& plugin_sections() {
        .beside = Schema<ProofOptions>().specs()},
       {.name = "objective",
        .kind = PluginKind::step_check,
-       .defaults = {"directions", "identical_parts"},
+       .defaults = {"directions", "identical_parts", "gravity", "reorientations", "tool_access"},
        .many = &RunConfig::objective,
        .doc = "Step checks that judge each step as an assembly operation; [] = any order without collisions is as good "
               "as another.",
        .options = Schema<ObjectiveOptions>().specs(),
-       .default_options = {weight_of(1), weight_of(0.3)}}};
+       .default_options = {weight_of(1), weight_of(0.3), weight_of(1), weight_of(1.5), weight_of(1)}}};
   return sections;
 }
 
