@@ -10,7 +10,8 @@ from program import HANGING, PROGRAM, CliTest
 
 
 class Access(CliTest):
-    QUICK = ("--timeout", "0", "--set", "run.path_timeout=0", "--set", "run.force=off", "--set", "immobility.provers=[]")
+    QUICK = ("--timeout", "0", "--set", "run.path_timeout=0", "--set", "run.force=off", "--set", "immobility.provers=[]",
+             "--set", "objective=[directions, {type: identical_parts, weight: 0.3}]")
 
     def setUp(self):
         super().setUp()

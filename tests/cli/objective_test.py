@@ -34,7 +34,7 @@ class Objective(CliTest):
         plan = self.read_plan("out")
         checks = plan["objective"]["checks"]
         self.assertEqual([(c["type"], c["weight"]) for c in checks], [("directions", 2), ("identical_parts", 1)])
-        self.assertEqual(checks[0]["parameters"], {"angle": 0.2})
+        self.assertEqual(checks[0]["parameters"], {"angle": 0.2, "preference": 0})
         for k, check in enumerate(checks):
             self.assertAlmostEqual(check["cost"], sum(step["checks"][k]["cost"] for step in plan["disassembly"]))
         self.assertAlmostEqual(plan["objective"]["cost"], 2 * checks[0]["cost"] + checks[1]["cost"])

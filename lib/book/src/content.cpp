@@ -281,7 +281,7 @@ class ContentWriter {
     if (step.up) {
       page.facts.emplace_back("lies", lie_words(*step.up, frame_.y_up));
     }
-    if (index == 0 && !options_.disassembly) page.facts.emplace_back("start with", names_of(chapter.base));
+    if (index == 0 && !options_.disassembly) page.facts.emplace_back("base", names_of(chapter.base));
     if (index == 0 && options_.disassembly && chapter.letter >= 0)
       page.facts.emplace_back("of", names_of(chapter.parts));
     add_plan_facts(plan_.disassembly[step.plan_step], page);
@@ -303,7 +303,7 @@ class ContentWriter {
     for (const PlanVerdict& v : step.checks)
       for (const StepNote& note : v.notes) page.facts.emplace_back("note", note.text);
     for (const std::string& line : cost_lines(step.checks)) page.facts.emplace_back("check", line);
-    if (!options_.disassembly) page.facts.emplace_back("disassembly", fmt::format("step {}", step.step));
+    if (!options_.disassembly) page.facts.emplace_back("reverse of", fmt::format("step {} of the disassembly", step.step));
   }
 
   /// None for what is not one straight motion by which parts join or leave.

@@ -57,6 +57,13 @@ std::string list_of(const Assembly& assembly, const std::vector<PartId>& parts) 
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// To three significant digits, for readers.
+double rounded(double value) {
+  if (!(value > 0)) return 0;
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
+  return std::stod(fmt::format("{:.3g}", std::round(value / unit) * unit));
+}
+
 /// An orientation halfway between two; over one side, always the same one, if they are opposite.
 Vec3 halfway(const Vec3& a, const Vec3& b) {
   const Vec3 sum = a + b;
@@ -226,7 +233,7 @@ StepVerdict Gravity::judge(const StepQuestion& question, const RunContext& conte
   const auto add = [&](const State& state, const char* when) {
     for (const Hold& h : state.holds) {
       held.insert(h.part);
-      holds.push_back({{"part", assembly.parts[h.part].name}, {"when", when}, {"newton", h.newton}});
+      holds.push_back({{"part", assembly.parts[h.part].name}, {"when", when}, {"newton", rounded(h.newton)}});
       if (!h.motion.empty()) holds.back()["motion"] = h.motion;
     }
   };
@@ -259,7 +266,7 @@ StepVerdict Gravity::judge(const StepQuestion& question, const RunContext& conte
   verdict.reason = unclear ? "no set of holds was found with which it stands"
                            : fmt::format("{} part{} must be held", held.size(), held.size() == 1 ? "" : "s");
   const Json data = {{"hold", holds}, {"hands", hands}, {"proved", after.proved && during.proved && turned.proved}};
-  verdict.notes.push_back({"gravity", fmt::format("{}", fmt::join(texts, " ")),
+  verdict.notes.push_back({"hold", fmt::format("{}", fmt::join(texts, " ")),
                            data.dump(-1, ' ', false, Json::error_handler_t::replace)});
   return verdict;
 }

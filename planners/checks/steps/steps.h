@@ -12,6 +12,7 @@ class Steps final : public StepCheck {
   StepVerdict judge(const StepQuestion& /*question*/, const RunContext& /*context*/) const override {
     StepVerdict verdict;
     verdict.cost = 1;
+    verdict.reason = "one more step";
     return verdict;
   }
 };
