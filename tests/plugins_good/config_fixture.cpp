@@ -180,5 +180,5 @@ DISMANTLE_PLUGIN("dismantle.fixture", "0.1.0", "MIT", "https://example.org") {
   r.add<ImmobilityProver, NoProof>("overlap_lock", "A point in both.");
   r.add<ImmobilityProver, NoProof, RingParams>("ring", "A ring in a chamber.");
   r.add<StepCheck, NoJudgement>("directions", "Changes of direction.");
-  r.add<StepCheck, NoJudgement, GravityParams>("gravity", "Does it stand?");
+  r.add<StepCheck, NoJudgement, GravityParams>("sagging", "Does it stand?");
 }

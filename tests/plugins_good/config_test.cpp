@@ -92,9 +92,9 @@ TEST_F(Config, WhatIsWrongWithProvers) {
 TEST_F(Config, TheObjectiveIsAListOfChecksWithWeights) {
   using Ids = std::vector<std::string>;
   EXPECT_EQ(ids_of(load_config({}, registry_).objective), Ids{"directions"}) << "those of the default that are there";
-  const std::string file = "schema: 1\nobjective: [{type: gravity, weight: 2, hands: 3, require: true}, directions]\n";
+  const std::string file = "schema: 1\nobjective: [{type: sagging, weight: 2, hands: 3, require: true}, directions]\n";
   const RunConfig config = load_text(file);
-  ASSERT_EQ(ids_of(config.objective), (Ids{"gravity", "directions"}));
+  ASSERT_EQ(ids_of(config.objective), (Ids{"sagging", "directions"}));
   EXPECT_EQ(config.objective[0].options, (ParamSet{{"weight", 2.0}, {"require", true}}));
   EXPECT_EQ(config.objective[0].parameters, (ParamSet{{"hands", std::int64_t{3}}}));
   EXPECT_EQ(config.objective[1].options, (ParamSet{{"weight", 1.0}, {"require", false}}));
@@ -116,12 +116,12 @@ TEST_F(Config, WhatIsWrongWithAnObjective) {
          {"run.yaml:2:20: error: unknown step_check 'direction'; did you mean 'directions'?",
           "'ring' is an immobility_prover, not a step_check", "objective.2 has no 'type'"});
   expect(
-      "[{type: gravity, weight: -1, hand: 2}, {type: directions, require: 1}]",
-      {"objective.0.weight must be >= 0, got -1", "unknown key 'hand' in objective.0 (gravity); did you mean 'hands'?",
+      "[{type: sagging, weight: -1, hand: 2}, {type: directions, require: 1}]",
+      {"objective.0.weight must be >= 0, got -1", "unknown key 'hand' in objective.0 (sagging); did you mean 'hands'?",
        "objective.1.require must be true or false, got '1'"});
-  expect("[gravity, directions, {type: gravity, hands: 2}]", {"run.yaml:2", "objective lists 'gravity' twice"});
-  expect("gravity", {"run.yaml:2:12: error: objective must be a list of step_checks, got a value"});
-  expect("{gravity: {weight: 2}}", {"objective has no item 'gravity'; items are 0 (directions)"});
+  expect("[sagging, directions, {type: sagging, hands: 2}]", {"run.yaml:2", "objective lists 'sagging' twice"});
+  expect("sagging", {"run.yaml:2:12: error: objective must be a list of step_checks, got a value"});
+  expect("{sagging: {weight: 2}}", {"objective has no item 'sagging'; items are 0 (directions)"});
 }
 
 TEST_F(Config, AllErrorsAtOnce) {

@@ -95,7 +95,7 @@ TEST_F(Resolved, AnObjectiveRoundTrips) {
   const RunConfig none = load_text("schema: 1\nobjective: []\n");
   EXPECT_NE(resolved(none).find("\nobjective: []"), std::string::npos) << resolved(none);
   const RunConfig config =
-      load_text("schema: 1\nobjective: [directions, {type: gravity, weight: 0.25, hands: 3, require: true}]\n");
+      load_text("schema: 1\nobjective: [directions, {type: sagging, weight: 0.25, hands: 3, require: true}]\n");
   const std::string text = resolved(config);
   const RunConfig again = load_text(text);
   expect_same(config, again);

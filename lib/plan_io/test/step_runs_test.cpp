@@ -121,7 +121,7 @@ TEST(StepRuns, MarkdownHasARowPerRunWithAllNamesAndNumbers) {
     const std::vector<StepRun> runs = step_runs(row.plan, shapes_of(row.plan));
     std::istringstream lines(steps_markdown(row.plan, input_frame(row.plan.assembly)));
     std::vector<std::string> rows;
-    for (std::string line; std::getline(lines, line);)
+    for (std::string line; std::getline(lines, line) && !line.starts_with("<details>");)
       if (line.starts_with("| ") && !line.starts_with("| step")) rows.push_back(line);
     ASSERT_EQ(rows.size(), runs.size());
     for (std::size_t r = 0; r < runs.size(); ++r) {

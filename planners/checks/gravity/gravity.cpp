@@ -123,17 +123,16 @@ std::shared_ptr<Gravity::Scene> Gravity::scene_of(const Assembly& assembly) cons
 }
 
 Gravity::State Gravity::holds_of(const statics::BuiltPile& built, std::span<const PlacedPart> parts,
-                                 const Assembly& assembly, const RunContext& context) const {
-  const auto stop = [&] { return context.should_stop(); };
-  const statics::Holds holds = statics::least_holds_by_forces(built.pile, stop);
+                                 const Assembly& assembly) const {
+  const statics::Holds holds = statics::least_holds_by_forces(built.pile);
   State state;
   state.found = holds.found;
   state.proved = holds.proved;
   if (holds.held.empty()) return state;
-  const statics::Judgement free = statics::judge_forces(built.pile, stop);
+  const statics::Judgement free = statics::judge_forces(built.pile);
   statics::Pile held = built.pile;
   for (const std::uint32_t body : holds.held) held.bodies[body].fixed = true;
-  const statics::Judgement with = statics::judge_forces(held, stop);
+  const statics::Judgement with = statics::judge_forces(held);
   for (const std::uint32_t body : holds.held) {
     Hold hold;
     double largest = -1;
@@ -158,7 +157,7 @@ Gravity::State Gravity::holds_of(const statics::BuiltPile& built, std::span<cons
 }
 
 Gravity::State Gravity::at_rest(Scene& scene, const Assembly& assembly, std::span<const PlacedPart> parts,
-                                const Vec3& up, bool table, const RunContext& context) const {
+                                const Vec3& up, bool table) const {
   std::vector<double> key{up.x(), up.y(), up.z(), table ? 1.0 : 0.0};
   for (const PlacedPart& p : parts)
     key.insert(key.end(), {static_cast<double>(p.part), p.pose.t.x(), p.pose.t.y(), p.pose.t.z(), p.pose.q.w(),
@@ -168,23 +167,21 @@ Gravity::State Gravity::at_rest(Scene& scene, const Assembly& assembly, std::spa
     if (const auto known = scene.known.find(key); known != scene.known.end()) return known->second;
   }
   const auto balanced = [&](Gaps gaps) {
-    const auto stop = [&] { return context.should_stop(); };
-    return statics::judge_forces(scene.piles->pile(parts, up, gaps, table).pile, stop).verdict == statics::Verdict::stands;
+    return statics::judge_forces(scene.piles->pile(parts, up, gaps, table).pile).verdict == statics::Verdict::stands;
   };
   State state;
   if (!table || scene.piles->unsupported(parts, parts, up) > 0 || !(balanced(Gaps::tight) || balanced(Gaps::play)))
-    state = holds_of(scene.piles->pile(parts, up, Gaps::play, table), parts, assembly, context);
-  if (context.should_stop()) return state;
+    state = holds_of(scene.piles->pile(parts, up, Gaps::play, table), parts, assembly);
   const std::lock_guard lock(mutex_);
   return scene.known.emplace(std::move(key), std::move(state)).first->second;
 }
 
 /// What the present parts need while the new one is pressed in, and while it is pulled back a little. What holds them at
 /// rest is taken first: usually it is enough.
-Gravity::State Gravity::while_put_in(Scene& scene, const StepQuestion& question, const RunContext& context) const {
+Gravity::State Gravity::while_put_in(Scene& scene, const StepQuestion& question) const {
   if (question.present.empty() || question.direction.isZero()) return {};
   const std::vector<PlacedPart> parts = joined(question.present, {});
-  State worst = at_rest(scene, question.assembly, parts, question.up, true, context);
+  State worst = at_rest(scene, question.assembly, parts, question.up, true);
   const statics::BuiltPile alone = scene.piles->pile(parts, question.up, Gaps::play);
   const State rest = worst;
   for (const double sign : {1.0, -1.0}) {
@@ -195,8 +192,8 @@ Gravity::State Gravity::while_put_in(Scene& scene, const StepQuestion& question,
     for (const Hold& h : rest.holds)
       for (std::size_t i = 0; i < parts.size(); ++i)
         if (parts[i].part == h.part) held.bodies[pressed.body_of[i]].fixed = true;
-    if (statics::judge_forces(held, [&] { return context.should_stop(); }).verdict == statics::Verdict::stands) continue;
-    State state = holds_of(pressed, parts, question.assembly, context);
+    if (statics::judge_forces(held).verdict == statics::Verdict::stands) continue;
+    State state = holds_of(pressed, parts, question.assembly);
     if (state.holds.size() > worst.holds.size() || !state.found) worst = std::move(state);
   }
   return worst;
@@ -220,13 +217,12 @@ StepVerdict Gravity::judge(const StepQuestion& question, const RunContext& conte
   const std::vector<PlacedPart> all = joined(question.present, question.moving);
   if (all.size() > static_cast<std::size_t>(params_.most_parts)) return estimate(question, context);
   const std::shared_ptr<Scene> scene = scene_of(assembly);
-  const State after = at_rest(*scene, assembly, all, question.up, true, context);
-  const State during = while_put_in(*scene, question, context);
+  const State after = at_rest(*scene, assembly, all, question.up, true);
+  const State during = while_put_in(*scene, question);
   State turned;
   if (question.previous != nullptr && !question.present.empty() &&
       question.previous->up.dot(question.up) < 1 - kSameUp)
-    turned = at_rest(*scene, assembly, joined(question.present, {}), halfway(question.previous->up, question.up), false,
-                     context);
+    turned = at_rest(*scene, assembly, joined(question.present, {}), halfway(question.previous->up, question.up), false);
   StepVerdict verdict;
   std::set<PartId> held;
   Json holds = Json::array();

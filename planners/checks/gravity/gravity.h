@@ -24,7 +24,8 @@ struct GravityParams {
   static void describe(Schema<GravityParams>& schema);
 };
 
-/// Costs the number of parts that somebody has to hold, besides the one in hand.
+/// Costs the number of parts that somebody has to hold, besides the one in hand. A question is answered to the end, even
+/// if the run is stopped meanwhile: the plan so far is judged as it would be otherwise.
 class Gravity final : public StepCheck {
  public:
   /// @throws std::invalid_argument for a density that cannot be read.
@@ -53,11 +54,10 @@ class Gravity final : public StepCheck {
     std::map<std::vector<double>, State> known;
   };
   std::shared_ptr<Scene> scene_of(const Assembly& assembly) const;
-  State holds_of(const statics::BuiltPile& built, std::span<const PlacedPart> parts, const Assembly& assembly,
-                 const RunContext& context) const;
+  State holds_of(const statics::BuiltPile& built, std::span<const PlacedPart> parts, const Assembly& assembly) const;
   State at_rest(Scene& scene, const Assembly& assembly, std::span<const PlacedPart> parts, const Eigen::Vector3d& up,
-                bool table, const RunContext& context) const;
-  State while_put_in(Scene& scene, const StepQuestion& question, const RunContext& context) const;
+                bool table) const;
+  State while_put_in(Scene& scene, const StepQuestion& question) const;
 
   GravityParams params_;
   std::vector<std::string> fixed_;
