@@ -269,7 +269,7 @@ class Book(WithPlan):
         self.assertEqual(self.result_of(done)["book"], "out/book.html")
         html = self.read("out", "book.html")
         self.assertIn("<h1>A &lt;box&gt;</h1>", html)
-        steps = [int(n) for n in re.findall(r"disassembly</dt><dd>step (\d+)</dd>", html)]
+        steps = [int(n) for n in re.findall(r"reverse of</dt><dd>step (\d+) of the disassembly</dd>", html)]
         self.assertEqual(steps, sorted((s["step"] for s in self.plan["disassembly"]), reverse=True))
         self.assertEqual(len(re.findall(r"data:image/png;base64,iVBOR", html)), html.count("<img"))
         self.run_program("book", "out/plan.json", "--disassembly", "-o", "apart.html", "-q", status=0)
