@@ -180,6 +180,11 @@ bool DirectedCheck::process(const Interval& i, List list, bool vertex_rule) {
   if (!settle_all(i, std::move(list), vertex_rule, later)) return false;
   if (later.empty()) return true;
   const double m = middle(i);
+  // So short that halving it changes nothing: what is still open is not decided, and the recursion ends.
+  if (!(i.s1 - i.s0 > 1e-12 * std::max(1.0, i.s1))) {
+    const Patch& open = patches_[later.front()];
+    return fail(Answer::uncertain, open.center(), 0, open.triangle, i.s0);
+  }
   return process(interval(i.s0, m), later, vertex_rule) && process(interval(m, i.s1), std::move(later), vertex_rule);
 }
 
