@@ -1,10 +1,11 @@
 // Statics of the samples whose answers are known.
+#include "dismantle/samples.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "dismantle/samples.h"
 #include "dismantle/statics/stability.h"
 #include "dismantle/testing/shapes.h"
 

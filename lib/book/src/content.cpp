@@ -260,8 +260,7 @@ class ContentWriter {
       } else {
         for (const PlanComponent* c : whole) {
           const auto item = item_of_component_.find(c->name);
-          page.moving.emplace_back(
-              item == item_of_component_.end() ? 0 : content_.items[item->second].number, c->name);
+          page.moving.emplace_back(item == item_of_component_.end() ? 0 : content_.items[item->second].number, c->name);
         }
         for (const std::string& name : others) page.moving.emplace_back(0, name);
         for (const auto& [item, n] : of_item)
@@ -303,7 +302,8 @@ class ContentWriter {
     for (const PlanVerdict& v : step.checks)
       for (const StepNote& note : v.notes) page.facts.emplace_back("note", note.text);
     for (const std::string& line : cost_lines(step.checks)) page.facts.emplace_back("check", line);
-    if (!options_.disassembly) page.facts.emplace_back("reverse of", fmt::format("step {} of the disassembly", step.step));
+    if (!options_.disassembly)
+      page.facts.emplace_back("reverse of", fmt::format("step {} of the disassembly", step.step));
   }
 
   /// None for what is not one straight motion by which parts join or leave.

@@ -47,9 +47,9 @@ Model stack(const StackParams& p) {
   double x = 0;
   std::vector<Point> ways;
   for (int k = 0; k < p.blocks; ++k) {
-    const std::string name = add_part(
-        model, "block" + std::to_string(k + 1),
-        Cells().add(Point(x, 0, k * p.height), Point(x + p.width, p.width, (k + 1) * p.height)).mesh());
+    const std::string name =
+        add_part(model, "block" + std::to_string(k + 1),
+                 Cells().add(Point(x, 0, k * p.height), Point(x + p.width, p.width, (k + 1) * p.height)).mesh());
     ways.emplace_back(0, 0, 1.2 * p.height);
     if (k > 0) touch(model, name, model.parts[static_cast<std::size_t>(k) - 1].name, ways.back());
     x += p.shift * p.width / 2 / std::max(1, p.blocks - 1 - k);
@@ -79,8 +79,8 @@ Model loose_table(const TableParams& p) {
     if (k > 0) ways.emplace_back(0, 0, 1.2 * p.height);
   }
   const Point out(0, 0, 1.2 * p.top);
-  const std::string top = add_part(
-      model, "top", Cells().add(Point(0, 0, p.height), Point(p.size, p.size, p.height + p.top)).mesh());
+  const std::string top =
+      add_part(model, "top", Cells().add(Point(0, 0, p.height), Point(p.size, p.size, p.height + p.top)).mesh());
   for (int k = 0; k < 4; ++k) touch(model, top, "leg" + std::to_string(k + 1), out);
   ways.push_back(out);
   take_off(model, ways);
@@ -103,10 +103,11 @@ Model wedged_block(const WedgedParams& p) {
   model.clearance = p.height;
   const double top = p.height + p.size;
   Cells channel;
-  channel.add(Point(-p.wall, 0, -p.wall), Point(p.size + p.wall, p.size, top)).cut(Point(0, 0, 0), Point(p.size, p.size, top));
+  channel.add(Point(-p.wall, 0, -p.wall), Point(p.size + p.wall, p.size, top))
+      .cut(Point(0, 0, 0), Point(p.size, p.size, top));
   add_part(model, "channel", channel.mesh());
-  const std::string block = add_part(
-      model, "block", Cells().add(Point(0, 0, p.height), Point(p.size, p.size, top)).mesh());
+  const std::string block =
+      add_part(model, "block", Cells().add(Point(0, 0, p.height), Point(p.size, p.size, top)).mesh());
   const Point out(0, 0, 1.2 * p.size);
   touch(model, block, "channel", out);
   take_off(model, {Point::Zero(), out});
@@ -127,8 +128,10 @@ struct ArchParams {
   int voussoirs = 9;
   double radius = 100, thickness = 25, depth = 30;
   static void describe(Schema<ArchParams>& s) {
-    s.add("voussoirs", &ArchParams::voussoirs, {.unit = "1", .min = 3, .max = 25, .doc = "Number of blocks of the arch."});
-    s.add("radius", &ArchParams::radius, {.unit = "mm", .min = 10, .max = 1000, .doc = "Radius of the middle of the arch."});
+    s.add("voussoirs", &ArchParams::voussoirs,
+          {.unit = "1", .min = 3, .max = 25, .doc = "Number of blocks of the arch."});
+    s.add("radius", &ArchParams::radius,
+          {.unit = "mm", .min = 10, .max = 1000, .doc = "Radius of the middle of the arch."});
     s.add("thickness", &ArchParams::thickness,
           {.unit = "mm",
            .min = 0.5,
@@ -143,15 +146,13 @@ Model arch(const ArchParams& p) {
   Model model;
   const double inner = p.radius - p.thickness / 2, outer = p.radius + p.thickness / 2;
   const auto at = [](double angle, double y, double r) { return Point(r * std::cos(angle), y, r * std::sin(angle)); };
-  add_part(model, "ground",
-           Cells().add(Point(-1.2 * outer, 0, -p.thickness), Point(1.2 * outer, p.depth, 0)).mesh());
+  add_part(model, "ground", Cells().add(Point(-1.2 * outer, 0, -p.thickness), Point(1.2 * outer, p.depth, 0)).mesh());
   std::vector<Point> ways{Point::Zero()};
   const double step = pi / p.voussoirs;
   model.clearance = 0.9 * inner * std::sin(step);  // of the second voussoir above the ground
   for (int k = 0; k < p.voussoirs; ++k) {
-    const std::string name =
-        add_part(model, "voussoir" + std::to_string(k + 1),
-                 voussoir(k * step, (k + 1) * step, p.depth, 0, inner, outer, at));
+    const std::string name = add_part(model, "voussoir" + std::to_string(k + 1),
+                                      voussoir(k * step, (k + 1) * step, p.depth, 0, inner, outer, at));
     // Sideways: the faces between the blocks, and the ground, lie along y.
     ways.emplace_back(0, -1.2 * p.depth, 0);
     if (k > 0) touch(model, name, model.parts[static_cast<std::size_t>(k)].name, ways.back());

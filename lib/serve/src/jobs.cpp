@@ -23,19 +23,28 @@ std::string last_line(const std::string& text) {
 
 const char* name_of(JobState state) {
   switch (state) {
-    case JobState::queued: return "queued";
-    case JobState::running: return "running";
-    case JobState::done: return "done";
-    case JobState::refused: return "refused";
-    case JobState::cancelled: return "cancelled";
-    case JobState::failed: return "failed";
+    case JobState::queued:
+      return "queued";
+    case JobState::running:
+      return "running";
+    case JobState::done:
+      return "done";
+    case JobState::refused:
+      return "refused";
+    case JobState::cancelled:
+      return "cancelled";
+    case JobState::failed:
+      return "failed";
   }
   return "failed";
 }
 
 nlohmann::json to_json(const JobReport& report) {
-  nlohmann::json out = {{"kind", report.kind},         {"state", name_of(report.state)}, {"progress", report.progress},
-                        {"seconds", report.seconds},   {"message", report.message}};
+  nlohmann::json out = {{"kind", report.kind},
+                        {"state", name_of(report.state)},
+                        {"progress", report.progress},
+                        {"seconds", report.seconds},
+                        {"message", report.message}};
   for (const char* key : {"status", "step", "steps", "parts", "removed", "left"})
     if (report.result.contains(key)) out[key] = report.result[key];
   return out;

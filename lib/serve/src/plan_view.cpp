@@ -18,7 +18,8 @@ nlohmann::json plan_view(const std::string& plan_json) {
     for (std::size_t k = disassembly.size(); k-- > 0;) {
       nlohmann::json moved = nlohmann::json::array();
       for (const auto& move : disassembly[k].at("moves")) moved.push_back(move.at("part"));
-      steps.push_back({{"step", disassembly.size() - k}, {"parts", moved}, {"forced", disassembly[k].contains("forced")}});
+      steps.push_back(
+          {{"step", disassembly.size() - k}, {"parts", moved}, {"forced", disassembly[k].contains("forced")}});
     }
     return {{"steps", steps}, {"parts", parts}};
   } catch (const nlohmann::json::exception& e) {

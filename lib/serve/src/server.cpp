@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using httplib::Request;
 using httplib::Response;
 
-constexpr double kLongest = 86400;  // s, the largest time limit that the page may name
+constexpr double kLongest = 86400;                 // s, the largest time limit that the page may name
 constexpr std::size_t kLargestQuestion = 1 << 20;  // bytes of JSON
 
 /// What is answered instead.
@@ -128,8 +128,9 @@ class Server::Impl {
     if (request.path == "/" && request.method == "GET") return true;
     const std::string given = request.has_header("X-Dismantle-Token") ? request.get_header_value("X-Dismantle-Token")
                                                                       : request.get_param_value("token");
-    return same_token(given, token_) || refuse(401, "the token is missing or wrong: open the address that "
-                                                    "'dismantle serve' prints");
+    return same_token(given, token_) || refuse(401,
+                                               "the token is missing or wrong: open the address that "
+                                               "'dismantle serve' prints");
   }
 
   using Handler = std::function<void(const Request&, Response&)>;
@@ -164,8 +165,10 @@ class Server::Impl {
   }
 
   nlohmann::json state_of(const Entry& entry) const {
-    nlohmann::json out = {{"name", entry.name},         {"file", entry.input.filename().string()},
-                          {"has_plan", entry.has_plan}, {"earlier", entry.earlier},
+    nlohmann::json out = {{"name", entry.name},
+                          {"file", entry.input.filename().string()},
+                          {"has_plan", entry.has_plan},
+                          {"earlier", entry.earlier},
                           {"plan", folder_.summary(entry.name)}};
     if (const auto report = jobs_.report(entry.name)) out["job"] = to_json(*report);
     return out;
@@ -205,8 +208,9 @@ class Server::Impl {
                 if (!file) throw Refusal{404, "there is no such file of the plan"};
                 // The page is data of the folder: it runs without the rights of this server.
                 if (extension_of(name) == ".html")
-                  response.set_header("Content-Security-Policy",
-                                      "sandbox allow-scripts allow-downloads; connect-src 'none'; frame-ancestors 'self'");
+                  response.set_header(
+                      "Content-Security-Policy",
+                      "sandbox allow-scripts allow-downloads; connect-src 'none'; frame-ancestors 'self'");
                 response.set_content(read_file(*file), type_of(name));
               }));
   }
@@ -266,7 +270,8 @@ class Server::Impl {
     if (!(timeout > 0) || timeout > kLongest)
       throw Refusal{400, fmt::format("'timeout' must be above 0 and at most {:.0f} s", kLongest)};
     std::vector<std::string> arguments{"plan", entry.input.string(), "--timeout", fmt::format("{}", timeout)};
-    if (const auto settings = folder_.settings(entry.name)) arguments.insert(arguments.end(), {"-c", settings->string()});
+    if (const auto settings = folder_.settings(entry.name))
+      arguments.insert(arguments.end(), {"-c", settings->string()});
     start(entry, "plan", std::move(arguments), timeout);
   }
 

@@ -46,7 +46,7 @@ bool Upload::add(std::string_view bytes) {
 }
 
 bool Upload::keep_as(const std::filesystem::path& file) {
-  ::fchmod(descriptor_, 0644);  // as other files; that of mkstemp is for the user alone
+  ::fchmod(descriptor_, 0644);                                // as other files; that of mkstemp is for the user alone
   if (::link(path_.c_str(), file.c_str()) == 0) return true;  // unlike rename, never over another file
   if (errno == EEXIST) return false;
   fail_upload("the file cannot be given its name");

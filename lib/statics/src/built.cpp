@@ -16,9 +16,9 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kSamePose = 1e-9;  // of the size of the assembly, and in radians
-constexpr double kPlay = 10;           // Gaps::play
-constexpr double kSeat = 0.3;          // cosine: a contact that stops a motion; otherwise it lies along it
+constexpr double kSamePose = 1e-9;        // of the size of the assembly, and in radians
+constexpr double kPlay = 10;              // Gaps::play
+constexpr double kSeat = 0.3;             // cosine: a contact that stops a motion; otherwise it lies along it
 constexpr double kAlmostNoWeight = 1e-6;  // kg, of a part without a volume
 
 /// How a lies to b.
@@ -63,7 +63,9 @@ BuiltPiles::~BuiltPiles() = default;
 
 bool BuiltPiles::is_of(const Assembly& assembly) const {
   return std::equal(meshes_.begin(), meshes_.end(), assembly.parts.begin(), assembly.parts.end(),
-                    [](const auto& mesh, const Part& p) { return mesh == p.mesh; });
+                    [](const auto& mesh, const Part& p) { return mesh == p.mesh; }) &&
+         std::equal(fasteners_.begin(), fasteners_.end(), assembly.parts.begin(), assembly.parts.end(),
+                    [](bool fastener, const Part& p) { return fastener == is_fastener(p); });
 }
 
 const Shape& BuiltPiles::shape(PartId part) const {
@@ -120,8 +122,8 @@ const std::vector<Contact>& BuiltPiles::as_assembled(PartId a, PartId b, Gaps ga
 std::vector<Contact> BuiltPiles::contacts(const PlacedPart& a, const PlacedPart& b, Gaps gaps) const {
   const Pose to_b = relative(a, b);
   if (to_b.t.norm() > kSamePose * size_ || to_b.q.vec().norm() > kSamePose) {
-    std::vector<Contact> result = pair_contacts({&shape(a.part), a.pose}, {&shape(b.part), b.pose}, touching(gaps),
-                                                bonded(a.part, b.part), 0);
+    std::vector<Contact> result =
+        pair_contacts({&shape(a.part), a.pose}, {&shape(b.part), b.pose}, touching(gaps), bonded(a.part, b.part), 0);
     for (Contact& c : result) c.friction = options_.friction;
     return result;
   }

@@ -15,7 +15,8 @@ std::string axis_text(const Vec3& way) {
   const Vec3 unit = way.normalized();
   std::string text;
   for (int k = 0; k < 3; ++k)
-    if (std::abs(unit[k]) > kNoticed) text += fmt::format("{}{}{}", text.empty() ? "" : " and ", unit[k] > 0 ? '+' : '-', "xyz"[k]);
+    if (std::abs(unit[k]) > kNoticed)
+      text += fmt::format("{}{}{}", text.empty() ? "" : " and ", unit[k] > 0 ? '+' : '-', "xyz"[k]);
   return text;
 }
 

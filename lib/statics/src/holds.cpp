@@ -138,9 +138,8 @@ Holds find_holds(const Pile& pile, Judge judged, const Stop& stop) {
   const auto add = [&](Group group) {
     result.groups.push_back(smallest(pile, std::move(group), judged, stop));
     // Of hitting sets of the same size, one of large bodies: these are easy to reach and to grip.
-    std::stable_sort(result.groups.back().begin(), result.groups.back().end(), [&](std::uint32_t a, std::uint32_t b) {
-      return pile.bodies[a].radius > pile.bodies[b].radius;
-    });
+    std::stable_sort(result.groups.back().begin(), result.groups.back().end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return pile.bodies[a].radius > pile.bodies[b].radius; });
     exact = exact && verdict_alone(pile, result.groups.back(), judged, stop) == Verdict::falls;
   };
   // Bodies that nothing holds: found at once, and most groups are of this kind.

@@ -31,8 +31,8 @@ void add_contacts(const Assembly& assembly, const std::vector<Shape>& shapes, co
       if (!boxes[a].overlaps(boxes[b])) continue;
       const bool bond = is_bonded(assembly, a, b, touching * std::min(shapes[a].radius(), shapes[b].radius()));
       const InitialOverlap* overlap = assembly.overlap_of(a, b);
-      for (Contact& c : pair_contacts({&shapes[a], {}}, {&shapes[b], {}}, touching, bond,
-                                      overlap == nullptr ? 0 : overlap->depth)) {
+      for (Contact& c :
+           pair_contacts({&shapes[a], {}}, {&shapes[b], {}}, touching, bond, overlap == nullptr ? 0 : overlap->depth)) {
         c.a = a;
         c.b = b;
         c.friction = options.friction;

@@ -31,7 +31,8 @@ std::vector<std::string> words_of(const std::string& text) {
   std::vector<std::string> words;
   for (std::size_t from = 0; from <= text.size();) {
     const std::size_t to = std::min(text.find(',', from), text.size());
-    const std::size_t first = text.find_first_not_of(' ', from), last = text.find_last_not_of(' ', to == 0 ? 0 : to - 1);
+    const std::size_t first = text.find_first_not_of(' ', from),
+                      last = text.find_last_not_of(' ', to == 0 ? 0 : to - 1);
     if (first < to && last != std::string::npos && last >= first) words.push_back(text.substr(first, last - first + 1));
     from = to + 1;
   }
@@ -176,8 +177,8 @@ Gravity::State Gravity::at_rest(Scene& scene, const Assembly& assembly, std::spa
   return scene.known.emplace(std::move(key), std::move(state)).first->second;
 }
 
-/// What the present parts need while the new one is pressed in, and while it is pulled back a little. What holds them at
-/// rest is taken first: usually it is enough.
+/// What the present parts need while the new one is pressed in, and while it is pulled back a little. What holds them
+/// at rest is taken first: usually it is enough.
 Gravity::State Gravity::while_put_in(Scene& scene, const StepQuestion& question) const {
   if (question.present.empty() || question.direction.isZero()) return {};
   const std::vector<PlacedPart> parts = joined(question.present, {});
@@ -220,9 +221,9 @@ StepVerdict Gravity::judge(const StepQuestion& question, const RunContext& conte
   const State after = at_rest(*scene, assembly, all, question.up, true);
   const State during = while_put_in(*scene, question);
   State turned;
-  if (question.previous != nullptr && !question.present.empty() &&
-      question.previous->up.dot(question.up) < 1 - kSameUp)
-    turned = at_rest(*scene, assembly, joined(question.present, {}), halfway(question.previous->up, question.up), false);
+  if (question.previous != nullptr && !question.present.empty() && question.previous->up.dot(question.up) < 1 - kSameUp)
+    turned =
+        at_rest(*scene, assembly, joined(question.present, {}), halfway(question.previous->up, question.up), false);
   StepVerdict verdict;
   std::set<PartId> held;
   Json holds = Json::array();
@@ -262,8 +263,8 @@ StepVerdict Gravity::judge(const StepQuestion& question, const RunContext& conte
   verdict.reason = unclear ? "no set of holds was found with which it stands"
                            : fmt::format("{} part{} must be held", held.size(), held.size() == 1 ? "" : "s");
   const Json data = {{"hold", holds}, {"hands", hands}, {"proved", after.proved && during.proved && turned.proved}};
-  verdict.notes.push_back({"hold", fmt::format("{}", fmt::join(texts, " ")),
-                           data.dump(-1, ' ', false, Json::error_handler_t::replace)});
+  verdict.notes.push_back(
+      {"hold", fmt::format("{}", fmt::join(texts, " ")), data.dump(-1, ' ', false, Json::error_handler_t::replace)});
   return verdict;
 }
 

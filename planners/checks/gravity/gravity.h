@@ -24,8 +24,8 @@ struct GravityParams {
   static void describe(Schema<GravityParams>& schema);
 };
 
-/// Costs the number of parts that somebody has to hold, besides the one in hand. A question is answered to the end, even
-/// if the run is stopped meanwhile: the plan so far is judged as it would be otherwise.
+/// Costs the number of parts that somebody has to hold, besides the one in hand. A question is answered to the end,
+/// even if the run is stopped meanwhile: the plan so far is judged as it would be otherwise.
 class Gravity final : public StepCheck {
  public:
   /// @throws std::invalid_argument for a density that cannot be read.

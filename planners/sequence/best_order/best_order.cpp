@@ -86,14 +86,13 @@ class Rewriting {
         context_(context),
         plan_(std::move(plan)),
         sweep_(oracle.tolerance() > 0 ? std::make_unique<blocking::PairSweep>(query.assembly, oracle) : nullptr),
-        directions_(with_used(sweep_ ? blocking::directions_of(query.assembly) : blocking::Directions{}, plan_,
-                              everywhere_)),
+        directions_(
+            with_used(sweep_ ? blocking::directions_of(query.assembly) : blocking::Directions{}, plan_, everywhere_)),
         effort_{static_cast<std::uint64_t>(params.effort), [&context] { return context.should_stop(); }},
         sweeps_{effort_.left / 10, effort_.stop},
         scene_{query, oracle, context, sweep_.get(), directions_, everywhere_, {std::nullopt}, sweeps_} {
-    const bool turns = std::any_of(query.objective.items.begin(), query.objective.items.end(), [](const ObjectiveItem& i) {
-      return i.check->traits().remembers_orientation;
-    });
+    const bool turns = std::any_of(query.objective.items.begin(), query.objective.items.end(),
+                                   [](const ObjectiveItem& i) { return i.check->traits().remembers_orientation; });
     for (int axis = 0; turns && axis < 6; ++axis) {
       const Eigen::Vector3d up = (axis % 2 == 0 ? 1 : -1) * Eigen::Vector3d::Unit(axis / 2);
       if (up.dot(query.objective.up) < 1 - 1e-9) scene_.ups.emplace_back(up);
@@ -278,7 +277,8 @@ BestOrder::BestOrder(const BestOrderParams& params) : params_(params), inner_(pa
 
 SequenceResult BestOrder::plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                                RunContext& context) {
-  // The inner planner looks for any plan: to prefer some removals takes it much longer. What is required it has to know.
+  // The inner planner looks for any plan: to prefer some removals takes it much longer. What is required it has to
+  // know.
   Objective required{{}, query.objective.up};
   for (const ObjectiveItem& item : query.objective.items)
     if (item.require) required.items.push_back(item);

@@ -1,5 +1,6 @@
-#include "best_order/best_order.h"
 #include "dismantle/plugin.h"
+
+#include "best_order/best_order.h"
 
 DISMANTLE_PLUGIN("dismantle.best_order", DISMANTLE_VERSION, "MIT", "") {
   r.add<dismantle::SequencePlanner, dismantle::BestOrder, dismantle::BestOrderParams>(

@@ -44,8 +44,7 @@ std::vector<Block> blocks_of(const std::vector<Removal>& plan, OrderScene& scene
     } else {
       std::vector<Row>& own = rows[group];
       const bool plain = is_plain(removal);
-      if (own.empty() || own.back().plain != plain)
-        own.push_back({done.placed(done.groups()[group]), {}, plain});
+      if (own.empty() || own.back().plain != plain) own.push_back({done.placed(done.groups()[group]), {}, plain});
       own.back().steps.push_back(&removal);
     }
     done.add(step_of(removal));
@@ -125,8 +124,9 @@ double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, con
 
 double estimate_of(const std::vector<Removal>& plan, const SequenceQuery& query, const Eigen::Vector3d& up,
                    const RunContext& context) {
-  return sum_of(plan, query, up, context,
-                [&](const StepQuestion& question) { return query.objective.judge(question, context, &StepCheck::estimate); });
+  return sum_of(plan, query, up, context, [&](const StepQuestion& question) {
+    return query.objective.judge(question, context, &StepCheck::estimate);
+  });
 }
 
 Removal verified(const Step& step, const Disassembly& now, OrderScene& scene, std::vector<PartId>& blocked_by) {
@@ -135,7 +135,8 @@ Removal verified(const Step& step, const Disassembly& now, OrderScene& scene, st
   Removal removal;
   removal.parts = motion == nullptr ? planned->parts : motion->parts;
   removal.up = motion == nullptr ? planned->up : step.segment->up(step.variant);
-  Attempt attempt{now.placed(removal.parts), now.placed(without(now.groups()[now.group(removal.parts.front())], removal.parts))};
+  Attempt attempt{now.placed(removal.parts),
+                  now.placed(without(now.groups()[now.group(removal.parts.front())], removal.parts))};
   if (planned != nullptr && same_places(planned->attempt->attempt.moving, attempt.moving) &&
       same_places(planned->attempt->attempt.fixed, attempt.fixed)) {
     removal.attempt = planned->attempt;

@@ -16,7 +16,9 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kClasses = 63;  // of variants; the last one is for all others
 
-bool same(const Vector3d& a, const Vector3d& b) { return a.dot(b) > geometry::kSameDirection || (a.isZero() && b.isZero()); }
+bool same(const Vector3d& a, const Vector3d& b) {
+  return a.dot(b) > geometry::kSameDirection || (a.isZero() && b.isZero());
+}
 
 Vector3d insertion_of(const Assembly& assembly, const Removal& removal) {
   const AttemptResult& answer = *removal.attempt;
@@ -66,8 +68,8 @@ Segment::Segment(OrderScene& scene, std::vector<PlacedPart> start, std::vector<c
 void Segment::prepare() {
   if (scene_.sweep != nullptr) {
     for (const PlacedPart& p : start_) orientations_.number_of(p.pose.q);
-    relations_ = std::make_unique<blocking::Relations>(*scene_.sweep, scene_.directions, orientations_,
-                                                       scene_.context.executor);
+    relations_ =
+        std::make_unique<blocking::Relations>(*scene_.sweep, scene_.directions, orientations_, scene_.context.executor);
   }
   for (const ObjectiveItem& item : scene_.query.objective.items) {
     items_.push_back({&item, item.check->traits(), {}});
@@ -160,8 +162,8 @@ void Segment::add_straight(std::size_t unit) {
 }
 
 void Segment::add(Move move) {
-  const auto known = std::find_if(courses_.begin(), courses_.end(),
-                                  [&](const Vector3d& c) { return same(c, move.motion.insertion); });
+  const auto known =
+      std::find_if(courses_.begin(), courses_.end(), [&](const Vector3d& c) { return same(c, move.motion.insertion); });
   move.course = static_cast<std::size_t>(known - courses_.begin());
   if (known == courses_.end()) courses_.push_back(move.motion.insertion);
   moves_.push_back(std::move(move));

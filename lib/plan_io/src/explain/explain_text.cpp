@@ -104,7 +104,8 @@ std::string steps_text(const Explanation& e) {
   const std::size_t digits = std::to_string(e.plan->disassembly.size()).size() + 2;
   for (const StepReason& step : e.steps) {
     const std::string in_assembly = fmt::format("({})", step_number(*e.plan, step.step - 1, false));
-    out += fmt::format("{:>5} {:>{}}  {}  ", step.step, in_assembly, digits, text::padded(text::joined(step.parts), width));
+    out += fmt::format("{:>5} {:>{}}  {}  ", step.step, in_assembly, digits,
+                       text::padded(text::joined(step.parts), width));
     const PlanStep& done = e.plan->disassembly.at(step.step - 1);
     if (done.forced) {
       out += fmt::format("FORCED: {}\n", forced_text(*e.plan, *done.forced));
@@ -136,10 +137,8 @@ std::string explain_text(const Explanation& e) {
   const Plan& plan = *e.plan;
   const PlanAssembly& a = plan.assembly;
   const bool complete = plan.status != PlanStatus::partial;
-  std::string out =
-      fmt::format("{}: {}, {} done, {}\n", a.source, text::counted(a.parts.size(), "part"),
-                  text::counted(plan.disassembly.size(), "step"),
-                  result_text(plan));
+  std::string out = fmt::format("{}: {}, {} done, {}\n", a.source, text::counted(a.parts.size(), "part"),
+                                text::counted(plan.disassembly.size(), "step"), result_text(plan));
   for (const PlanExcluded& part : a.excluded) out += fmt::format("left out: {}: {}\n", part.name, part.reason);
   for (const LeftReason& reason : e.left) out += reason_text(plan, reason);
   if (!e.untried.empty())

@@ -47,8 +47,7 @@ std::string judged_cell(std::span<const PlanStep> steps) {
     add_new(lines, cost_lines(step.checks));
     for (const PlanVerdict& v : step.checks)
       for (const StepNote& note : v.notes)
-        add_new(lines,
-                {fmt::format("{} ({}){}{}", note.text, note.kind, note.data.empty() ? "" : ": ", note.data)});
+        add_new(lines, {fmt::format("{} ({}){}{}", note.text, note.kind, note.data.empty() ? "" : ": ", note.data)});
   }
   std::string out;
   for (const std::string& line : lines) out += (out.empty() ? "" : "<br>") + markdown_text(line);
@@ -76,7 +75,8 @@ Together together(std::span<const PlanStep> steps, const Plan& plan) {
     std::ranges::sort(out.after);
     std::erase_if(out.contacts, [&](const std::string& part) { return std::ranges::find(moved, part) != moved.end(); });
   }
-  const std::size_t first = static_cast<std::size_t>(steps.data() - plan.disassembly.data()), last = first + steps.size() - 1;
+  const std::size_t first = static_cast<std::size_t>(steps.data() - plan.disassembly.data()),
+                    last = first + steps.size() - 1;
   const auto range = [](std::size_t from, std::size_t to) {
     return from == to ? fmt::format("{}", from) : fmt::format("{}–{}", from, to);
   };
@@ -128,15 +128,15 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame, const Guid
 
   std::string out =
       fmt::format("# {}\n\n{}, {}, {}.\n\n", markdown_text(a.source), text::counted(a.parts.size(), "part"),
-                  text::counted(plan.disassembly.size(), "step"),
-                  markdown_text(result_text(plan)));
+                  text::counted(plan.disassembly.size(), "step"), markdown_text(result_text(plan)));
   const bool judged = !plan.objective.empty();
   if (judged) out += markdown_text(objective_text(plan)) + ".\n\n";
   if (!plan.disassembly.empty()) {
     const bool forced = plan.forced_steps() > 0;
-    out += fmt::format("| step | in assembly | parts | motion | waits for | touches |{}{}\n|---:|---:|---|---|---|---|{}{}\n",
-                       forced ? " cuts in |" : "", judged ? " as an assembly operation |" : "", forced ? "---:|" : "",
-                       judged ? "---|" : "");
+    out += fmt::format(
+        "| step | in assembly | parts | motion | waits for | touches |{}{}\n|---:|---:|---|---|---|---|{}{}\n",
+        forced ? " cuts in |" : "", judged ? " as an assembly operation |" : "", forced ? "---:|" : "",
+        judged ? "---|" : "");
     for (const StepRun& run : step_runs(plan, shapes_of(plan))) {
       const std::span<const PlanStep> steps = std::span(plan.disassembly).subspan(run.first, run.count);
       const PlanStep& step = steps.front();
@@ -155,19 +155,22 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame, const Guid
       if (step.forced)
         cuts = fmt::format("**{}: {} {}**", step.forced->accepted.empty() ? "forced" : "accepted",
                            figure_text(unit.factor * step.forced->depth), unit.name);
-      out += fmt::format("| {} | {} | {}{}{} | {} | {} | {} |{}{}\n", all.numbers, all.in_assembly, markdown_text(before),
-                         markdown_text(all.names), what, markdown_text(motion),
+      out += fmt::format("| {} | {} | {}{}{} | {} | {} | {} |{}{}\n", all.numbers, all.in_assembly,
+                         markdown_text(before), markdown_text(all.names), what, markdown_text(motion),
                          step.layer > 0 ? steps_list(all.after) : "not recorded",
                          all.contacts.empty() ? "-" : markdown_text(text::joined(all.contacts)),
                          forced ? fmt::format(" {} |", cuts.empty() ? "-" : cuts) : "",
                          judged ? " " + judged_cell(steps) + " |" : "");
     }
     out +=
-        "\nSteps have their numbers in the disassembly; in the assembly, which is the same backwards, they have those of the "
-        "second column. Motions are those of the first part named, at the assembly's middle, or on the axis about which "
+        "\nSteps have their numbers in the disassembly; in the assembly, which is the same backwards, they have those "
+        "of the "
+        "second column. Motions are those of the first part named, at the assembly's middle, or on the axis about "
+        "which "
         "it turns; ";
-    out += guided.empty() ? "distances are the lengths of the verified paths, on which the hulls of the parts come apart.\n"
-                          : "the distance of a straight motion is that to where nothing is beside the part any more.\n";
+    out += guided.empty()
+               ? "distances are the lengths of the verified paths, on which the hulls of the parts come apart.\n"
+               : "the distance of a straight motion is that to where nothing is beside the part any more.\n";
     out += forced_reasons(plan) + details(plan);
   }
   if (!plan.remaining.empty()) out += fmt::format("\nStays: {}.\n", markdown_text(text::joined(plan.remaining)));

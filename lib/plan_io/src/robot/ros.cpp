@@ -52,7 +52,8 @@ class RosSteps {
   /// `disassembly`: of these steps the plan says what they wait for.
   Json all(const std::vector<PlanStep>& steps, bool disassembly) const {
     Json out = Json::array();
-    for (const StepTime& time : timeline(steps, assembly_, disassembly ? disassembly_ups(plan_) : assembly_ups(plan_)).steps) {
+    for (const StepTime& time :
+         timeline(steps, assembly_, disassembly ? disassembly_ups(plan_) : assembly_ups(plan_)).steps) {
       const PlanStep& step = steps[time.index];
       Json entry = {{"step", step.step}};
       if (disassembly) entry["after"] = step.after;

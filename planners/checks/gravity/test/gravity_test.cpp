@@ -78,8 +78,7 @@ TEST(Gravity, SameVerdictWhenTurnedAndScaled) {
     const double scale = std::exp(rng.uniform(-2, 2));
     const Eigen::Quaterniond q = Eigen::Quaterniond::UnitRandom();
     std::vector<Mesh> meshes{block(-2, -2, 0, 4, 4, 1)}, other;
-    for (int n = 0; n < 3; ++n)
-      meshes.push_back(block(rng.uniform(-2, 0), rng.uniform(-2, 0), 1 + n, 2.5, 2.5, 1));
+    for (int n = 0; n < 3; ++n) meshes.push_back(block(rng.uniform(-2, 0), rng.uniform(-2, 0), 1 + n, 2.5, 2.5, 1));
     for (const Mesh& m : meshes) {
       other.push_back(m);
       for (Vector3d& v : other.back().vertices) v = scale * (q * v);
@@ -95,8 +94,44 @@ TEST(Gravity, SameVerdictWhenTurnedAndScaled) {
   EXPECT_GT(falls, 4u);
 }
 
+// A screw is drawn deep in the wall of its hole: it holds, as one body with the plate. Any other part has to be held.
+TEST(Gravity, AScrewInItsThreadIsFastened) {
+  for (const double depth : {0.3, 0.05}) {
+    Scene scene({block(0, 0, 0, 4, 4, 4), block(4 - depth, 1, 2, 2, 1, 1)});
+    scene.assembly.overlaps.push_back({0, 1, depth, std::nullopt, std::nullopt});
+    EXPECT_EQ(Gravity().judge(scene.question(), RunContext{}).cost, 1) << depth;
+    scene.assembly.parts[1].kind.emplace();
+    scene.assembly.parts[1].kind->kind = "screw";
+    EXPECT_EQ(Gravity().judge(scene.question(), RunContext{}).cost, 0) << depth;
+    EXPECT_EQ(Gravity().estimate(scene.question(), RunContext{}).cost, 0) << depth;
+  }
+}
+
+// Law: a block that hangs over another one by less than the play of CAD settles; by more, it has to be held.
+TEST(Gravity, WhatHasPlaySettles) {
+  for (const double scale : {0.01, 1.0, 50.0})
+    for (const auto& [gap, cost] : std::vector<std::pair<double, double>>{{0.002, 0}, {0.02, 0}, {0.3, 1}}) {
+      const Scene scene({block(0, 0, 0, 2 * scale, 2 * scale, scale),
+                         block(0.5 * scale, 0.5 * scale, (1 + gap) * scale, scale, scale, scale)});
+      EXPECT_EQ(Gravity().judge(scene.question(), RunContext{}).cost, cost) << scale << " " << gap;
+      EXPECT_EQ(Gravity().estimate(scene.question(), RunContext{}).cost, cost) << scale << " " << gap;
+    }
+}
+
+// A check is asked about other assemblies, too: what it knows of one is not said of another with the same meshes.
+TEST(Gravity, OtherKindsAreAnotherAssembly) {
+  Scene scene({block(0, 0, 0, 4, 4, 4), block(3.7, 1, 2, 2, 1, 1)});
+  scene.assembly.overlaps.push_back({0, 1, 0.3, std::nullopt, std::nullopt});
+  const Gravity gravity;
+  EXPECT_EQ(gravity.judge(scene.question(), RunContext{}).cost, 1);
+  scene.assembly.parts[1].kind.emplace();
+  scene.assembly.parts[1].kind->kind = "screw";
+  EXPECT_EQ(gravity.judge(scene.question(), RunContext{}).cost, 0);
+}
+
 TEST(Gravity, TooFewHandsAreARefusal) {
-  const Scene scene({block(0, 0, 0, 2, 2, 1), block(5, 0, 3, 1, 1, 1), block(-5, 0, 3, 1, 1, 1), block(0, 5, 3, 1, 1, 1)});
+  const Scene scene(
+      {block(0, 0, 0, 2, 2, 1), block(5, 0, 3, 1, 1, 1), block(-5, 0, 3, 1, 1, 1), block(0, 5, 3, 1, 1, 1)});
   const StepVerdict verdict = Gravity().judge(scene.question(), RunContext{});
   EXPECT_EQ(verdict.cost, 3);
   EXPECT_FALSE(verdict.allowed);

@@ -39,7 +39,7 @@ class DISMANTLE_API BuiltPiles {
   BuiltPiles(const Assembly& assembly, StabilityOptions options);
   ~BuiltPiles();
 
-  /// True for the assembly it was made of, and for copies of it.
+  /// True for the assembly it was made of, and for copies of it: the same meshes and fasteners.
   bool is_of(const Assembly& assembly) const;
 
   /// `parts` in ascending order of ids. The table has the unit normal `up` and touches the lowest point; `table` false:
