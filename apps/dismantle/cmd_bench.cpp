@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 struct BenchOptions {
   std::string suite, folder, shard, launcher = "local";
   unsigned jobs = 1, tasks = 1;
-  std::vector<std::string> slurm_options;
-  bool dry_run = false;
+  std::vector<std::string> slurm_options, only;
+  bool dry_run = false, replace = false;
   ConsoleOptions console;
 };
 
@@ -46,7 +46,9 @@ int run_locally(const bench::Suite& suite, const bench::CampaignOptions& campaig
   cancel_on_signals(context.cancel);
   const bench::CampaignResult result = bench::run_campaign(suite, campaign, context);
   console.end_progress();
-  std::string text = fmt::format("{} of {} trials done, {} solved; {} run now\nresults: {}\n", result.done,
+  std::string text;
+  for (const std::string& note : result.replaced) text += note + "\n";
+  text += fmt::format("{} of {} trials done, {} solved; {} run now\nresults: {}\n", result.done,
                                  result.total, result.solved, result.ran, result.database.string());
   if (result.interrupted) text += "interrupted: the same command goes on\n";
   text += fmt::format("tables: dismantle report {}\n", campaign.folder.string());
@@ -57,6 +59,7 @@ int run_locally(const bench::Suite& suite, const bench::CampaignOptions& campaig
                   {"done", result.done},
                   {"solved", result.solved},
                   {"ran", result.ran},
+                  {"replaced", result.replaced},
                   {"database", result.database.string()}});
   return status;
 }
@@ -69,6 +72,8 @@ int run_by_slurm(const BenchOptions& options, const bench::CampaignOptions& camp
   job.tasks = options.tasks;
   job.jobs = options.jobs;
   job.options = options.slurm_options;
+  for (const std::string& planner : options.only) job.arguments.insert(job.arguments.end(), {"--only", planner});
+  if (options.replace) job.arguments.emplace_back("--replace");
   const bench::Submitted submitted = bench::submit(job);
   console.text(
       fmt::format("wrote {}\nsubmitted as Slurm job {}, {} tasks\ntables, when they are done: dismantle report {}\n",
@@ -81,6 +86,8 @@ int bench_suite(const BenchOptions& options) {
   Console console(options.console);
   bench::CampaignOptions campaign;
   campaign.jobs = options.jobs;
+  campaign.only = options.only;
+  campaign.replace = options.replace;
   read_shard(options.shard, campaign);
   const bench::Suite suite = bench::read_suite(options.suite);
   for (const auto& note : suite.notes) console.warning(note);
@@ -119,6 +126,13 @@ void add_bench(CLI::App& app, Action& action) {
       ->option_text("OPTION")
       ->take_all()
       ->allow_extra_args(false);
+  command->add_option("--only", options->only, "Run the trials of this planner of the suite; may be repeated")
+      ->option_text("PLANNER")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->add_flag("--replace", options->replace,
+                    "Run rows again that were made with another configuration, plugin, limit or input; keep the others")
+      ->option_text(" ");
   command->add_flag("--dry-run", options->dry_run, "Print the matrix and how long it may take")->option_text(" ");
   add_format(*command, options->console);
   add_verbosity(*command, options->console);
@@ -127,6 +141,7 @@ void add_bench(CLI::App& app, Action& action) {
       "Examples:\n"
       "  dismantle bench configs/bench/smoke.yaml -o smoke --jobs 2\n"
       "  dismantle bench configs/bench/two_part.yaml --dry-run\n"
+      "  dismantle bench suite.yaml -o big --only mine --replace\n"
       "  dismantle bench suite.yaml -o big --launcher slurm --tasks 64 --slurm-option=--partition=cpu");
   command->callback([&action, options] { action = [options] { return bench_suite(*options); }; });
 

@@ -150,6 +150,64 @@ class Resuming(BenchTest):
         self.suite(self.evil("none"), limits="timeout: 60, wall: 301, memory: 2048")
         self.assertIn("limits.wall differs", self.call("bench", "suite.yaml", "-o", "out", status=2).stderr)
 
+    def changed_planner(self):
+        """The suite `none`, `lie`, done; then the planner `lie` is another one."""
+        self.suite(self.evil("none", "lie"), assemblies=self.ASSEMBLIES)
+        self.bench()
+        before = {(r["assembly"], r["planner"]): r for r in self.rows()}
+        self.suite(self.evil("none") + "  lie: {config: evil.yaml, set: {path_planner.type: evil.abort}}\n", assemblies=self.ASSEMBLIES)
+        return before
+
+    def test_replace_runs_what_has_changed_and_keeps_the_rest(self):
+        before = self.changed_planner()
+        self.assertIn("path_planner.type: evil.lie -> evil.abort", self.call("bench", "suite.yaml", "-o", "out", status=2).stderr)
+        result = self.bench("--replace")
+        self.assertEqual(result["ran"], 2)
+        self.assertEqual(len(result["replaced"]), 1)
+        self.assertIn("planner 'lie': 2 rows are run again: its configuration", result["replaced"][0])
+        self.assert_each_once(4)
+        for row in self.rows():
+            if row["planner"] == "lie":
+                self.assertEqual(row["outcome"], "crash")
+            else:
+                self.assertEqual(dict(row), dict(before[row["assembly"], row["planner"]]))
+        self.assertEqual(self.rows("SELECT * FROM plans WHERE trial IN (SELECT id FROM trials WHERE outcome = 'crash')"), [])
+        again = self.bench("--replace")
+        self.assertEqual((again["ran"], again["replaced"]), (0, []))
+
+    def test_only_runs_the_planners_that_it_names(self):
+        self.changed_planner()
+        self.assertEqual(self.bench("--only", "none")["ran"], 0)  # the other one has changed, and is left alone
+        self.assertEqual(self.bench("--only", "lie", "--replace")["ran"], 2)
+        self.suite(self.evil("none", "lie"), assemblies=self.ASSEMBLIES, name="new.yaml")
+        self.assertEqual(self.bench("--only", "none", suite="new.yaml", out="new")["total"], 2)
+        self.assertEqual({r["planner"] for r in self.rows(database="new/results.db")}, {"none"})
+        self.assertIn("has no planner 'nobody'; it has: none, lie",
+                      self.call("bench", "new.yaml", "-o", "new", "--only", "nobody", status=2).stderr)
+
+    def test_only_does_not_make_planners_that_cannot_be_compared(self):
+        self.suite(self.evil("none", "lie"))
+        self.bench()
+        self.suite(self.evil("none", "lie"), limits="timeout: 60, wall: 301, memory: 2048")
+        done = self.call("bench", "suite.yaml", "-o", "out", "--only", "none", "--replace", status=2)
+        self.assertIn("limits.wall differs from that of the rows of planner 'lie'", done.stderr)
+        self.assertEqual({r["limit_wall"] for r in self.rows()}, {300})  # nothing was changed
+        self.assertEqual(self.bench("--replace")["ran"], 2)
+
+    def test_another_input_is_another_row(self):
+        self.call("sample", "l_slot", "-o", "mesh")
+        part = sorted(os.listdir(self.path("mesh")))[0]
+        self.suite(self.evil("none"), assemblies="  - {path: mesh}\n", more="seeds: 1\nvariants: {plain: {}, turned: {rotate: random}}\n")
+        self.bench()
+        before = [r["input_sha256"] for r in self.rows()]
+        self.write(f"mesh/{part}", self.read("mesh", part).replace("v ", "# changed\nv ", 1))
+        self.assertEqual(self.bench("--replace")["ran"], 2)
+        self.write(f"mesh/{part}", re.sub(r"^v (\S+)", lambda m: f"v {float(m[1]) * 1.001}", self.read("mesh", part), flags=re.M))
+        self.assertIn("the input of the assembly differs", self.call("bench", "suite.yaml", "-o", "out", status=2).stderr)
+        self.assertEqual(self.bench("--replace")["ran"], 2)
+        for old, row in zip(before, self.rows()):
+            self.assertNotEqual(old, row["input_sha256"])
+
 
 class Repeating(BenchTest):
     PLANNERS = "  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt, sequence_planner.type: progressive}}\n"

@@ -7,17 +7,18 @@ import numpy as np
 from . import _core, _planners
 
 
-def bench(suite, output, jobs=1, on_progress=None):
+def bench(suite, output, jobs=1, on_progress=None, only=(), replace=False):
     """Runs a suite file (docs/benchmark.md), each trial in a process of its own; the same call again goes on where it stopped.
 
     Planners that are written in Python take part: the trials run the files in which they are registered (put what is not to be
-    run there below `if __name__ == "__main__":`). output: folder for the results. jobs: concurrent trials.
-    Returns a dict: total, done, solved, ran (numbers of trials), database (path).
+    run there below `if __name__ == "__main__":`). output: folder for the results. jobs: concurrent trials. only: names of the
+    planners whose trials are run; empty: all. replace: rows that were made with something else are run again.
+    Returns a dict: total, done, solved, ran (numbers of trials), replaced (what is run again, and why), database (path).
     """
     command = [sys.executable, "-m", "dismantle._trial"]
     for file in _planners.source_files:
         command += ["--load", file]
-    return _core._bench(os.fspath(suite), os.fspath(output), jobs, command, on_progress)
+    return _core._bench(os.fspath(suite), os.fspath(output), jobs, list(only), replace, command, on_progress)
 
 
 def read_results(*paths):

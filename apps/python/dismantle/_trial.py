@@ -18,6 +18,9 @@ def main():
             for file in arguments.load:
                 runpy.run_path(file, run_name="dismantle_plugin")
         _core._bench_trial(arguments.folder, arguments.verify)
+    except MemoryError:
+        print("out of memory: the limit of the trial (limits.memory) is reached", file=sys.stderr)
+        return _core._out_of_memory
     except ConfigError as error:
         print(error, file=sys.stderr)
         return 2

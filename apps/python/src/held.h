@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
+#include <new>
 #include <string>
 
 namespace dismantle::python {
@@ -23,8 +24,11 @@ inline Held hold(py::object object) {
           }};
 }
 
-/// The exception with its traceback, as Python prints it. Call it with the interpreter's lock.
+/// The exception with its traceback, as Python prints it. Call it with the interpreter's lock. A process that has a
+/// handler for memory that runs out (a trial of bench()) is ended by it, as where C++ runs out of memory.
 inline std::string traceback_of(const py::error_already_set& error) {
+  if (error.matches(PyExc_MemoryError))
+    if (const std::new_handler handler = std::get_new_handler(); handler != nullptr) handler();
   const py::object lines =
       py::module_::import("traceback").attr("format_exception")(error.type(), error.value(), error.trace());
   std::string text = py::cast<std::string>(py::str("").attr("join")(lines));

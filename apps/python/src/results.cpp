@@ -45,7 +45,7 @@ py::dict read_results(const std::vector<std::filesystem::path>& paths) {
 }
 
 py::dict run_bench(const std::string& suite_file, const std::string& folder, unsigned jobs,
-                   const std::vector<std::string>& command, const py::object& on_progress) {
+                   const std::vector<std::string>& only, bool replace, const std::vector<std::string>& command, const py::object& on_progress) {
   const CancelToken cancel;
   std::optional<std::function<void(const ProgressEvent&)>> progress;
   if (!on_progress.is_none())
@@ -69,6 +69,8 @@ py::dict run_bench(const std::string& suite_file, const std::string& folder, uns
     bench::CampaignOptions options;
     options.folder = folder;
     options.jobs = jobs;
+    options.only = only;
+    options.replace = replace;
     options.plan_command = command;
     options.verify_command = command;
     options.verify_command.emplace_back("--verify");
@@ -79,6 +81,7 @@ py::dict run_bench(const std::string& suite_file, const std::string& folder, uns
   out["done"] = result.done;
   out["solved"] = result.solved;
   out["ran"] = result.ran;
+  out["replaced"] = result.replaced;
   out["database"] = result.database.string();
   return out;
 }
@@ -88,6 +91,7 @@ py::dict run_bench(const std::string& suite_file, const std::string& folder, uns
 void bind_results(py::module_& m) {
   m.def("_read_results", &read_results);
   m.def("_bench", &run_bench);
+  m.attr("_out_of_memory") = bench::kOutOfMemory;
   m.def("_bench_trial", [](const std::string& folder, bool verify) {
     py::gil_scoped_release release;
     verify ? bench::verify_trial(folder) : bench::plan_trial(folder);

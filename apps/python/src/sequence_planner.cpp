@@ -185,12 +185,13 @@ SequenceResult result_of(const py::object& returned, const SequenceView& view) {
   if (!together) {
     result.outcome = Outcome::solved;
     result.unsolved.clear();
-  } else if (context.should_stop()) {
-    result.outcome = context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
   } else {
     const bool crashed = std::any_of(result.unsolved.begin(), result.unsolved.end(),
                                      [](const Unsolved& u) { return u.outcome == Outcome::crashed; });
-    result.outcome = crashed ? Outcome::crashed : Outcome::exhausted;
+    result.outcome = context.cancel.cancelled() ? Outcome::cancelled
+                     : crashed                  ? Outcome::crashed
+                     : context.should_stop()    ? Outcome::timeout
+                                                : Outcome::exhausted;
   }
   return result;
 }

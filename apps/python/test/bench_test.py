@@ -46,6 +46,18 @@ def test_planners_in_python_are_rows_like_all_others(results):
         dismantle.read_results(results / "nothing")
 
 
+def test_memory_that_runs_out_in_python(tmp_path):
+    (tmp_path / "suite.yaml").write_text("""
+schema: 1
+assemblies: [{sample: l_slot}]
+planners: {memory: {set: {path_planner.type: test.memory, sequence_planner.type: progressive}}}
+limits: {timeout: 60, memory: 3072}
+""")
+    dismantle.bench(tmp_path / "suite.yaml", tmp_path / "results")
+    columns = dismantle.read_results(tmp_path / "results")
+    assert columns["outcome"].tolist() == ["out_of_memory"], columns["last_words"]
+
+
 def test_the_example_that_plots(results, source, tmp_path):
     picture = tmp_path / "comparison.png"
     matplotlib = subprocess.run([sys.executable, "-c", "import matplotlib"], capture_output=True)

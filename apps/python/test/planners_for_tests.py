@@ -120,3 +120,13 @@ class Whole(dismantle.StepCheck):
 
     def judge_plan(self, questions):
         return dismantle.StepVerdict(cost=len(questions), reason="its steps")
+
+
+@dismantle.path_planner("test.memory")
+class Memory(dismantle.PathPlanner):
+    """Asks for memory until there is none."""
+
+    def plan(self, query, context):
+        held = []
+        while True:
+            held.append(np.empty(1 << 28, dtype=np.uint8))  # not touched: it takes addresses only

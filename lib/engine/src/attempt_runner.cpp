@@ -318,8 +318,10 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
     const bool too_late = context.deadline.passed();
     if (cancelled || too_late) {
       computed.interrupted = true;
-      result.fail(cancelled ? Outcome::cancelled : Outcome::timeout,
-                  cancelled ? "cancelled" : "the time limit of the whole run passed during the attempt");
+      if (cancelled)
+        result.fail(Outcome::cancelled, "cancelled");
+      else if (result.outcome() != Outcome::crashed)  // the time limit does not explain a crash
+        result.fail(Outcome::timeout, "the time limit of the whole run passed during the attempt");
     } else if (result.outcome() == Outcome::cancelled) {
       if (own.deadline.passed()) {  // planners report both reasons alike
         result.fail(Outcome::timeout);

@@ -167,6 +167,21 @@ TEST(Oracle, WhatPluginsThrowBecomesAnOutcome) {
   EXPECT_NE(t.ask(leave(t.assembly, 0)).result.message.find("no licence"), std::string::npos);
 }
 
+TEST(Oracle, ACrashIsNotHiddenByTheTimeLimit) {
+  RunContext late;
+  const auto throws = [&late](const PathQuery&, RunContext&) -> PathResult {
+    late.deadline = Deadline::after_seconds(0);  // it passes during the attempt
+    throw std::runtime_error("index out of range");
+  };
+  Rig s(fake::row(2), fake::setup(throws));
+  late = s.context;
+  late.deadline = Deadline::after_seconds(1e6);
+  const AttemptResult& r = s.oracle->attempt(leave(s.assembly, 0), late);
+  EXPECT_TRUE(late.deadline.passed());
+  EXPECT_EQ(r.result.outcome(), Outcome::crashed);
+  EXPECT_NE(r.result.message.find("index out of range"), std::string::npos);
+}
+
 /// A wrong path has the same outcome, whether or not the run was stopped meanwhile.
 TEST(Oracle, AFalseClaimIsAFalseClaimHoweverLate) {
   for (const bool claims_start : {false, true}) {

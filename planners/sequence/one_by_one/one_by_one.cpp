@@ -129,7 +129,7 @@ std::vector<Outcome> OneByOne::attempt_each(std::span<const PartId> parts, unsig
 // could change.
 Outcome OneByOne::outcome() const {
   if (done()) return Outcome::solved;
-  if (interrupted_) return why_;
+  if (interrupted_ && why_ == Outcome::cancelled) return why_;
   const auto any = [&](Outcome o) {
     return std::any_of(left_.begin(), left_.end(), [&](PartId id) { return last_[id] && last_[id]->outcome == o; });
   };
@@ -137,6 +137,7 @@ Outcome OneByOne::outcome() const {
     return std::all_of(left_.begin(), left_.end(), [&](PartId id) { return last_[id] && last_[id]->outcome == o; });
   };
   if (any(Outcome::crashed)) return Outcome::crashed;
+  if (interrupted_) return why_;
   for (const Outcome o : {Outcome::invalid_start, Outcome::unsupported, Outcome::infeasible})
     if (all(o)) return o;
   if (any(Outcome::timeout)) return Outcome::timeout;

@@ -44,9 +44,9 @@ class Campaign {
         work_(fs::absolute(options.folder) / "work" / (host_name() + "@" + this_owner())),
         enlistment_(enlist(suite, options)),
         results_(database_of(options)) {
-    std::vector<TrialPlan> plans;
-    for (const auto& trial : enlistment_.trials) plans.push_back(trial.plan);
-    results_.enlist(suite, plans, enlistment_.configs);
+    for (const auto& trial : enlistment_.trials) enlistment_.wanted.trials.push_back(trial.plan);
+    replaced_ = results_.enlist(suite, enlistment_.wanted);
+    for (const std::string& note : replaced_) context_.log(LogLevel::info, note);
     fs::create_directories(work_.parent_path());
     clear_leftovers(work_.parent_path());
     fs::create_directories(work_);
@@ -170,6 +170,7 @@ class Campaign {
     out.done = static_cast<std::size_t>(tally.done);
     for (const auto& planner : tally.planners) out.solved += static_cast<std::size_t>(planner.second.first);
     out.ran = ran_;
+    out.replaced = replaced_;
     out.interrupted = context_.cancel.cancelled() && tally.done < tally.total;
     out.database = database_of(options_);
     return out;
@@ -182,6 +183,7 @@ class Campaign {
   Enlistment enlistment_;
   Results results_;
   std::vector<std::unique_ptr<RunningTrial>> running_;
+  std::vector<std::string> replaced_;
   std::size_t ran_ = 0;
   std::int64_t done_before_ = 0;
   Tally tally_;
@@ -210,12 +212,15 @@ std::string duration_text(double seconds) {
 
 std::string dry_run_text(const Suite& suite, const CampaignOptions& options) {
   const auto all = matrix(suite);
-  const auto cells = shard_of(all, options.shard, options.shards);
+  check_planners(suite, options.only);
+  auto cells = shard_of(all, options.shard, options.shards);
+  std::erase_if(cells, [&](const Cell& cell) { return !is_wanted(suite.planners[cell.planner].name, options.only); });
   std::string out = fmt::format("{}: {} assemblies, {} planners, {} variants, {} seeds: {} trials\n", suite.name,
                                 suite.assemblies.size(), suite.planners.size(), suite.variants.size(),
                                 suite.seeds.size(), all.size());
   if (options.shards > 1)
     out += fmt::format("shard {} of {}: {} of them\n", options.shard, options.shards, cells.size());
+  if (!options.only.empty()) out += fmt::format("only {}: {} of them\n", fmt::join(options.only, ", "), cells.size());
   for (const auto& planner : suite.planners)
     out += fmt::format("  planner {}: {} + {} + {}\n", planner.name, planner.config.sequence_planner.type,
                        planner.config.path_planner.type, planner.config.simulator.type);

@@ -1,7 +1,9 @@
 #include "campaign/enlist.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -77,10 +79,29 @@ std::string folder_name(const std::string& name, const std::string& recipe) {
   return out.substr(0, 100) + "-" + sha256_of(name + "|" + recipe).substr(0, 12);
 }
 
+/// Hash of the files of an assembly, or of the sample's name and values. Files that cannot be read are trials that fail.
+std::string hash_of_input(const SuiteAssembly& assembly) {
+  Sha256 hash;
+  hash.add(assembly.sample);
+  for (const auto& [key, value] : assembly.sample_values) hash.add("|" + key + "=" + to_text(value));
+  std::vector<fs::path> files;
+  std::error_code error;
+  if (fs::is_regular_file(assembly.path, error)) files.push_back(assembly.path);
+  if (fs::is_directory(assembly.path, error))
+    for (const auto& entry : fs::directory_iterator(assembly.path, error))
+      if (entry.is_regular_file(error)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const auto& file : files) {
+    hash.add("|" + file.filename().string() + "|");
+    if (::access(file.c_str(), R_OK) == 0) hash.add_file(file);
+  }
+  return hash.hex();
+}
+
 /// The name of a generated assembly contains a hash of its inputs, so that it is never mistaken for another.
-std::string input_name(const SuiteAssembly& assembly, const ImportParams& importers, bool rotate, std::int64_t seed) {
-  std::string recipe = assembly.path.string() + "|" + assembly.sample;
-  for (const auto& [key, value] : assembly.sample_values) recipe += "|" + key + "=" + to_text(value);
+std::string input_name(const SuiteAssembly& assembly, const std::string& input_hash, const ImportParams& importers,
+                       bool rotate, std::int64_t seed) {
+  std::string recipe = assembly.path.string() + "|" + input_hash;
   for (const auto& [importer, values] : importers)
     for (const auto& [key, value] : values) recipe += fmt::format("|{}.{}={}", importer, key, to_text(value));
   return folder_name(assembly.name + (rotate ? fmt::format("_turned{}", seed) : ""), recipe);
@@ -88,8 +109,21 @@ std::string input_name(const SuiteAssembly& assembly, const ImportParams& import
 
 }  // namespace
 
+bool is_wanted(const std::string& planner, const std::vector<std::string>& only) {
+  return only.empty() || std::find(only.begin(), only.end(), planner) != only.end();
+}
+
+void check_planners(const Suite& suite, const std::vector<std::string>& only) {
+  std::vector<std::string> names;
+  for (const auto& planner : suite.planners) names.push_back(planner.name);
+  for (const auto& name : only)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw Error(fmt::format("the suite has no planner '{}'; it has: {}", name, fmt::join(names, ", ")));
+}
+
 Enlistment enlist(const Suite& suite, const CampaignOptions& options) {
   const fs::path configs = fs::absolute(options.folder) / "configs";
+  check_planners(suite, options.only);
   fs::create_directories(configs);
   Enlistment out;
   struct Known {
@@ -99,6 +133,8 @@ Enlistment enlist(const Suite& suite, const CampaignOptions& options) {
   std::map<std::pair<std::size_t, std::int64_t>, Known> known;
   std::vector<std::string> planner_hashes;
   std::map<fs::path, std::string> hashes;
+  out.wanted.replace = options.replace;
+  for (const auto& assembly : suite.assemblies) out.wanted.inputs[assembly.name] = hash_of_input(assembly);
   for (const auto& planner : suite.planners) {
     RunConfig bare = with_seed(planner.config, 0);
     bare.plugin_search_paths.clear();  // the hashes of the plugin files are more specific
@@ -115,7 +151,7 @@ Enlistment enlist(const Suite& suite, const CampaignOptions& options) {
       config.hash = sha256_of(text);
       config.file = configs / (config.hash.substr(0, 16) + ".yaml");
       write_file(config.file, text);
-      out.configs.push_back({config.hash, text, plugins_of(seeded, *planner.registry, hashes)});
+      out.wanted.configs.push_back({config.hash, text, plugins_of(seeded, *planner.registry, hashes)});
     }
     Enlisted trial;
     const Limits& l = suite.limits;
@@ -135,6 +171,10 @@ Enlistment enlist(const Suite& suite, const CampaignOptions& options) {
                   .limit_memory_mb = l.memory,
                   .threads = l.threads,
                   .verify_max_penetration = suite.max_penetration};
+    if (!is_wanted(planner.name, options.only)) {
+      out.wanted.others.push_back(trial.plan);
+      continue;
+    }
     TrialRequest& r = trial.request;
     r.config = config.file;
     r.input = assembly.path;
@@ -144,7 +184,8 @@ Enlistment enlist(const Suite& suite, const CampaignOptions& options) {
     r.seed = cell.seed;
     r.part = trial.plan.part;
     r.inputs = fs::absolute(options.folder) / "inputs";
-    r.input_name = input_name(assembly, import_params_of(planner.config, *planner.registry), variant.rotate, cell.seed);
+    r.input_name = input_name(assembly, out.wanted.inputs.at(assembly.name),
+                              import_params_of(planner.config, *planner.registry), variant.rotate, cell.seed);
     r.max_penetration = suite.max_penetration;
     out.trials.push_back(std::move(trial));
   }

@@ -17,8 +17,13 @@ struct Enlisted {
 
 struct Enlistment {
   std::vector<Enlisted> trials;
-  std::vector<ConfigRecord> configs;
+  Wanted wanted;  ///< its `trials` are empty
 };
+
+/// True when `only` is empty or names `planner`.
+bool is_wanted(const std::string& planner, const std::vector<std::string>& only);
+/// @throws Error when `only` names a planner that the suite lacks.
+void check_planners(const Suite& suite, const std::vector<std::string>& only);
 
 /// Writes each configuration to `folder`/configs, where the trials read it.
 Enlistment enlist(const Suite& suite, const CampaignOptions& options);

@@ -45,9 +45,11 @@ std::string slurm_script(const SlurmJob& job) {
   out += "# Each task is a shard with a database of its own. Submitted again, it goes on where it stopped.\n";
   for (const char* name : {"DISMANTLE_PLUGIN_PATH", "DISMANTLE_DATA"})
     if (const char* value = std::getenv(name)) out += fmt::format("export {}={}\n", name, shell_quoted(value));
-  out += fmt::format("exec {} bench {} -o {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --jobs {}\n",
+  std::string arguments;
+  for (const auto& argument : job.arguments) arguments += " " + shell_quoted(argument);
+  out += fmt::format("exec {} bench {} -o {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --jobs {}{}\n",
                      shell_quoted(job.program.string()), shell_quoted(fs::absolute(job.suite).string()),
-                     shell_quoted(folder.string()), job.tasks, job.jobs);
+                     shell_quoted(folder.string()), job.tasks, job.jobs, arguments);
   return out;
 }
 

@@ -114,6 +114,7 @@ class Merger {
       data_.notes.push_back(fmt::format("{} trials are not done yet and not counted.", data_.missing));
     if (twice_ > 0)
       data_.notes.push_back(fmt::format("{} rows were in several databases; the first of each was taken.", twice_));
+    note_inputs();
     note_versions();
     return std::move(data_);
   }
@@ -154,6 +155,18 @@ class Merger {
       return std::make_tuple(rank(data_.variants, a.variant), rank(data_.planners, a.planner), a.seed) <
              std::make_tuple(rank(data_.variants, b.variant), rank(data_.planners, b.planner), b.seed);
     });
+  }
+
+  void note_inputs() {
+    std::map<std::tuple<std::string, std::string, std::int64_t>, std::string> inputs;
+    std::set<std::string> differ;
+    for (const auto& row : data_.rows) {
+      if (row.input_sha256.empty()) continue;  // it ended before it was read
+      const auto known = inputs.try_emplace({row.assembly, row.variant, row.seed}, row.input_sha256).first;
+      if (known->second != row.input_sha256) differ.insert(row.assembly);
+    }
+    if (!differ.empty())
+      data_.notes.push_back(fmt::format("Rows are of different files of: {}. They are not comparable.", fmt::join(differ, ", ")));
   }
 
   void note_versions() {

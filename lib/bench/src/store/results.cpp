@@ -66,67 +66,6 @@ Results::Results(const std::filesystem::path& file)
   db_.run("CREATE TEMP TABLE wanted (place INTEGER PRIMARY KEY, id INTEGER NOT NULL)");
 }
 
-void Results::enlist(const Suite& suite, const std::vector<TrialPlan>& trials,
-                     const std::vector<ConfigRecord>& configs) {
-  Transaction transaction(db_);
-  set(db_, "name", suite.name);
-  set(db_, "text", suite.text);
-  set(db_, "generator", "dismantle " + version_and_commit());
-  std::string planners, variants;
-  for (const auto& planner : suite.planners) planners += planner.name + "\n";
-  for (const auto& variant : suite.variants) variants += variant.name + "\n";
-  set(db_, "planners", planners);
-  set(db_, "variants", variants);
-  auto add_config = db_.prepare("INSERT OR IGNORE INTO configs VALUES (?, ?)");
-  auto add_plugin = db_.prepare("INSERT OR IGNORE INTO plugins VALUES (?, ?, ?, ?, ?, ?, ?)");
-  for (const auto& config : configs) {
-    add_config.bind(config.hash).bind(config.text).done();
-    for (const auto& p : config.plugins)
-      add_plugin.bind(config.hash)
-          .bind(p.section)
-          .bind(p.type)
-          .bind(p.plugin)
-          .bind(p.version)
-          .bind(p.file)
-          .bind(p.sha256)
-          .done();
-  }
-  std::string names, marks;
-  for_plan_columns(TrialPlan{}, [&](const char* name, const auto&, const char*) {
-    names += (names.empty() ? "" : ", ") + std::string(name);
-    marks += marks.empty() ? "?" : ", ?";
-  });
-  auto add = db_.prepare(fmt::format("INSERT OR IGNORE INTO trials ({}) VALUES ({})", names, marks));
-  auto find = db_.prepare(
-      fmt::format("SELECT id, {} FROM trials WHERE assembly = ? AND variant = ? AND planner = ? AND seed = ?", names));
-  auto want = db_.prepare("INSERT INTO wanted VALUES (?, ?)");
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    const TrialPlan& t = trials[i];
-    for_plan_columns(t, [&](const char*, const auto& value, const char*) { add.bind(value); });
-    add.done();
-    find.bind(t.assembly).bind(t.variant).bind(t.planner).bind(t.seed).step();
-    TrialPlan known;
-    int column = 1;
-    for_plan_columns(known, [&](const char*, auto& value, const char*) { find.get(column++, value); });
-    const char* differs = known.planner_hash != t.planner_hash         ? "its configuration or a plugin file"
-                          : known.limit_wall != t.limit_wall           ? "limits.wall"
-                          : known.limit_cpu != t.limit_cpu             ? "limits.cpu"
-                          : known.limit_memory_mb != t.limit_memory_mb ? "limits.memory"
-                          : known.part != t.part                       ? "the part"
-                          : known.verify_max_penetration != t.verify_max_penetration ? "verify.max_penetration"
-                                                                                     : nullptr;
-    if (differs != nullptr)
-      throw Error(
-          fmt::format("{}: planner '{}' on '{}' (seed {}) has a row already that was made with something else: "
-                      "{} differs. Rows are not mixed: use another folder (-o), or delete this one",
-                      db_.name(), t.planner, t.assembly, t.seed, differs));
-    ids_.push_back(find.integer(0));
-    find.done();
-    want.bind(static_cast<std::int64_t>(i)).bind(ids_.back()).done();
-  }
-  transaction.commit();
-}
-
 std::optional<std::size_t> Results::next_waiting(std::size_t from) {
   auto next = db_.prepare(
       "SELECT w.place FROM wanted w CROSS JOIN trials t ON t.id = w.id WHERE w.place >= ? AND t.state = 'waiting' "

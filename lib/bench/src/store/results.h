@@ -1,7 +1,9 @@
 /// The database of a suite: one row per trial, claimed by the process that runs it.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +17,15 @@ namespace dismantle::bench {
 struct ConfigRecord {
   std::string hash, text;
   std::vector<PluginUse> plugins;
+};
+
+/// What a process wants of a database.
+struct Wanted {
+  std::vector<TrialPlan> trials;              ///< that this process may claim
+  std::vector<TrialPlan> others;              ///< their rows stay as they are, and have to be comparable
+  std::vector<ConfigRecord> configs;
+  std::map<std::string, std::string> inputs;  ///< hash of what each assembly is made from, by its name
+  bool replace = false;                       ///< rows of `trials` that were made with something else are run again
 };
 
 /// What a trial leaves for the database.
@@ -39,9 +50,9 @@ class Results {
   /// @throws InputError when the file is not a database of this version.
   explicit Results(const std::filesystem::path& file);
 
-  /// Adds the missing rows of the suite. `trials`: those that this process may claim.
-  /// @throws Error when an existing row was made with another configuration.
-  void enlist(const Suite& suite, const std::vector<TrialPlan>& trials, const std::vector<ConfigRecord>& configs);
+  /// Adds the missing rows of the suite. Returns what is run again, and why.
+  /// @throws Error when an existing row was made with something else, unless `replace` says to run it again.
+  std::vector<std::string> enlist(const Suite& suite, const Wanted& wanted);
   /// Claims a trial that no process runs. Returns its index into the enlisted trials; nothing when there is none.
   std::optional<std::size_t> claim();
   /// Extends the lease of a claimed trial. Processes on other machines take over trials whose lease has expired.
@@ -56,6 +67,15 @@ class Results {
  private:
   /// The first waiting trial among the enlisted ones, from index `from` on.
   std::optional<std::size_t> next_waiting(std::size_t from);
+  void add_configs(const std::vector<ConfigRecord>& configs);
+  /// Names of the assemblies whose input is another one than that of the rows.
+  std::set<std::string> changed_inputs(const std::map<std::string, std::string>& inputs);
+  /// The row of a trial, with its id; none: 0.
+  std::pair<std::int64_t, TrialPlan> known_row(const TrialPlan& trial);
+  /// Why a row is not one of `trial`; empty: it is.
+  std::string difference(const TrialPlan& known, const TrialPlan& trial, bool input_changed);
+  /// Empties a row, so that the trial waits with another identity.
+  void reset(std::int64_t id, const TrialPlan& trial);
   Sqlite db_;
   std::string host_, cpu_, owner_;
   std::vector<std::int64_t> ids_;

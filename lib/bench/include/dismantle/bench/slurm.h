@@ -13,7 +13,8 @@ struct SlurmJob {
   std::filesystem::path suite, folder, program;
   unsigned tasks = 1;                ///< in the array
   unsigned jobs = 1;                 ///< concurrent trials of each task; also its number of cores
-  std::vector<std::string> options;  ///< for sbatch, such as --partition=cpu
+  std::vector<std::string> options;    ///< for sbatch, such as --partition=cpu
+  std::vector<std::string> arguments;  ///< more arguments of `dismantle bench`
 };
 
 struct Submitted {
