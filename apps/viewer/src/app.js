@@ -3,7 +3,7 @@ import {partly} from './plan/lies.js';
 import {screwInterpolate} from './plan/screw.js';
 import {Parts} from './scene/parts.js';
 
-const AMBER = '#f59e0b', BEST_TIME = 1.6;  // s, duration of the motion to an unsolved part's furthest pose
+const AMBER = '#f59e0b', HELD = '#12b5cb', BEST_TIME = 1.6;  // s, duration of the motion to an unsolved part's furthest pose
 const SEEN_THROUGH = 0.5;
 
 export class App {
@@ -19,6 +19,9 @@ export class App {
     this.trailing = 'step';  // none, step, all
     this.fading = model.parts.length > 12;
     this.selected = this.hovered = -1;
+    this.following = false;  // the camera goes with each step
+    this.moving = new Set();
+    this.held = new Set();
     this.hidden = new Set();
     this.clear = new Set();  // made transparent
     this.isolated = null;    // a Set, or null
@@ -66,7 +69,9 @@ export class App {
     const step = this.model.stepAt(this.mode, this.time);
     if (step !== this.step) {
       this.step = step;
+      this.#light();
       this.#showTrails();
+      if (this.following && step >= 0) this.follow();
       this.tell('step');
     }
   }
@@ -115,6 +120,35 @@ export class App {
     this.place();
     this.settle();
     this.home(true);
+  }
+
+  /** Lights what moves in this step, and marks what must be held. */
+  #light() {
+    this.moving = new Set(this.line.steps[this.step]?.parts);
+    this.held = new Set(this.model.held(this.mode, this.step));
+    this.paint();
+  }
+
+  /** Moves the camera to where this step happens: its parts where they begin and end, and those that they touch or that are held. */
+  follow() {
+    if (!this.stage || this.step < 0) return;
+    const {step, begin, end, times, parts} = this.line.steps[this.step], {time} = this, touched = new Set(this.held);
+    for (const name of step.contacts ?? []) touched.add(this.model.index.get(name));
+    const boxes = [begin, this.mode === 'assembly' && step.transfer ? times[step.transfer] : end, end].flatMap(at => {
+      this.time = at;
+      this.place();
+      return this.parts.boxes(i => parts.includes(i) || touched.has(i));
+    });
+    this.time = time;
+    this.place();
+    this.stage.fit(boxes, {margin: 1.5, minimum: 0.25 * this.model.size});
+  }
+
+  setFollowing(on) {
+    this.following = on;
+    if (on) this.follow();
+    else this.fit();
+    this.tell('display');
   }
 
   // Visibility
@@ -272,8 +306,10 @@ export class App {
       const body = this.parts.bodies[index];
       body.setColour(this.model.colour(index, this.colours));
       if (this.best?.blockers.has(index)) body.setGlow(AMBER, 0.45);
+      else if (this.held.has(index)) body.setGlow(HELD, 0.55);
       else if (index === this.selected) body.setGlow('#ffffff', 0.1);
       else if (index === this.hovered) body.setGlow('#ffffff', 0.16);
+      else if (this.moving.has(index)) body.setGlow('#ffffff', 0.2);
       else body.setGlow('#000000', 0);
     }
     this.stage.invalidate();

@@ -9,6 +9,7 @@ import {Places} from './scene/places.js';
 import {Picker} from './scene/picker.js';
 import {Stage} from './scene/stage.js';
 import {Trails} from './scene/trails.js';
+import {followAddress} from './ui/address.js';
 import {element} from './ui/dom.js';
 import {makeGizmo} from './ui/gizmo.js';
 import {makeHelp} from './ui/help.js';
@@ -76,6 +77,7 @@ function start() {
     scene.append(makeTools(app, display, () => help.showModal()), makeGizmo(app), ...overlay.nodes);
   }
   listen(app, display, help);
+  followAddress(app);
   expose(app, display);
 }
 

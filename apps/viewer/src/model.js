@@ -58,6 +58,11 @@ export class Model {
     return this.view.steps[mode][this.lines[mode].steps[index].index];
   }
 
+  /** Parts that must be held in a step that is shown. */
+  held(mode, index) {
+    return index < 0 ? [] : this.about(mode, index).hold ?? [];
+  }
+
   colour(i, scheme) {
     if (this.unsolved.has(i) || this.forced.has(i)) return TROUBLE;
     if (scheme === 'given') {

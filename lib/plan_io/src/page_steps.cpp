@@ -1,9 +1,13 @@
 #include "page_steps.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
+#include <string>
 
 #include "dismantle/plan_io/input_frame.h"
 #include "dismantle/plan_io/motion_words.h"
+#include "dismantle/plan_io/verdicts.h"
 #include "steps/timeline.h"
 
 namespace dismantle {
@@ -11,8 +15,38 @@ namespace {
 
 using StepsJson = nlohmann::ordered_json;
 
-/// One object per step. Without any step that says how the assembly lies, nothing is said of it.
-StepsJson steps_json(const StepUps& ups, const InputFrame& frame) {
+/// Parts that notes name in `{"hold": [{"part": NAME, ...}]}`, as indices. Notes are those of any step check: data of
+/// another form say nothing of parts.
+class Holds {
+ public:
+  explicit Holds(const Plan& plan) {
+    for (std::size_t i = 0; i < plan.assembly.parts.size(); ++i) index_.emplace(plan.assembly.parts[i].name, i);
+  }
+
+  std::set<std::size_t> of(const std::vector<PlanVerdict>& checks) const {
+    std::set<std::size_t> out;
+    for (const PlanVerdict& verdict : checks)
+      for (const StepNote& note : verdict.notes) {
+        const StepsJson data = StepsJson::parse(note.data, nullptr, false);
+        if (!data.is_object() || !data.contains("hold") || !data["hold"].is_array()) continue;
+        for (const StepsJson& held : data["hold"]) {
+          if (!held.is_object() || !held.contains("part") || !held["part"].is_string()) continue;
+          const auto known = index_.find(held["part"].get<std::string>());
+          if (known != index_.end()) out.insert(known->second);
+        }
+      }
+    return out;
+  }
+
+ private:
+  std::map<std::string, std::size_t> index_;
+};
+
+/// One object per step; `checks_of`: what the objective says of a step. Without any step that says how the assembly lies, nothing is said of it.
+template <class ChecksOf>
+StepsJson steps_json(const Plan& plan, const std::vector<PlanStep>& steps, const StepUps& ups, ChecksOf checks_of) {
+  const InputFrame frame = input_frame(plan.assembly);
+  const Holds holds(plan);
   StepsJson out = StepsJson::array();
   const bool said = std::ranges::any_of(ups, [](const auto& up) { return up.has_value(); });
   for (std::size_t s = 0; s < ups.size(); ++s) {
@@ -23,6 +57,7 @@ StepsJson steps_json(const StepUps& ups, const InputFrame& frame) {
       step["lies_words"] = lie_words(ups[s].value_or(frame.up()), frame.y_up);
       step["turned"] = s > 0 && ups[s] != ups[s - 1];
     }
+    if (const auto held = holds.of(checks_of(steps[s])); !held.empty()) step["hold"] = held;
     out.push_back(std::move(step));
   }
   return out;
@@ -36,9 +71,10 @@ void add_run(StepsJson& out, std::size_t first, std::size_t count, const std::st
 }  // namespace
 
 StepsJson page_steps(const Plan& plan) {
-  const InputFrame frame = input_frame(plan.assembly);
-  return {{"disassembly", steps_json(disassembly_ups(plan), frame)},
-          {"assembly", steps_json(assembly_ups(plan), frame)}};
+  const auto own = [](const PlanStep& step) -> const auto& { return step.checks; };
+  const auto reversed = [&](const PlanStep& step) -> const auto& { return checks_of_assembly_step(plan, step); };
+  return {{"disassembly", steps_json(plan, plan.disassembly, disassembly_ups(plan), own)},
+          {"assembly", steps_json(plan, plan.assembly_steps, assembly_ups(plan), reversed)}};
 }
 
 StepsJson page_runs(const Plan& plan, const std::vector<StepRun>& runs) {

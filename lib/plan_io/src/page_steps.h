@@ -8,7 +8,7 @@
 
 namespace dismantle {
 
-/// `view.steps` of a page (docs/viewer.md): how the assembly lies.
+/// `view.steps` of a page (docs/viewer.md): how the assembly lies, what must be held.
 nlohmann::ordered_json page_steps(const Plan& plan);
 
 /// `view.runs` of a page: the runs of several steps, in both directions.

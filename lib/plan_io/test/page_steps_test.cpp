@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "dismantle/plan_io/input_frame.h"
 #include "random_disassembly.h"
@@ -63,6 +64,37 @@ TEST(PageSteps, WhatIsUpInAStepPointsUpwards) {
     }
   });
   EXPECT_GT(lying, 20u);
+}
+
+TEST(PageSteps, EveryPartThatANoteHoldsIsNamedInBothDirections) {
+  std::size_t held = 0;
+  for_plans([&](Plan plan, const Assembly& assembly) {
+    Rng rng(plan.disassembly.size() + 7 * assembly.parts.size());
+    const std::size_t n = plan.disassembly.size();
+    std::vector<std::set<std::size_t>> truth(n);
+    for (std::size_t s = 0; s < n; ++s) {
+      PlanVerdict verdict{.type = "gravity"};
+      for (std::uint64_t notes = rng.below(3); notes > 0; --notes) {
+        const std::size_t part = rng.below(assembly.parts.size());
+        truth[s].insert(part);
+        const StepsJson hold = {{{"part", assembly.parts[part].name}, {"when", "during"}, {"newton", 2.5}}};
+        verdict.notes.push_back({"gravity", "Hold it.", StepsJson{{"hold", hold}, {"hands", 2}}.dump()});
+      }
+      // What other checks write is no hold.
+      for (const char* data : {"", "{}", R"({"hold": "p0"})", R"({"hold": ["p0", {"part": 3}, {"part": "ghost"}]})"})
+        verdict.notes.push_back({"acme", "A note.", data});
+      held += truth[s].size();
+      plan.disassembly[s].checks = {verdict};
+    }
+    const StepsJson steps = page_steps(plan);
+    for (std::size_t s = 0; s < n; ++s) {
+      const auto told = steps["disassembly"][s].value("hold", std::set<std::size_t>{});
+      EXPECT_EQ(told, truth[s]);
+      if (plan.assembly_steps.size() != n) continue;
+      EXPECT_EQ(steps["assembly"][n - 1 - s].value("hold", std::set<std::size_t>{}), truth[s]);
+    }
+  });
+  EXPECT_GT(held, 50u);
 }
 
 }  // namespace

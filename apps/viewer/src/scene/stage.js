@@ -134,6 +134,12 @@ export class Stage {
     this.invalidate();
   }
 
+  /** The picture as it is shown, as the address of an image. */
+  picture() {
+    this.#draw();
+    return this.renderer.domElement.toDataURL('image/png');
+  }
+
   /** `moved`: parts have moved, so shadows must be drawn again. */
   invalidate(moved = false) {
     this.dirty = true;

@@ -63,6 +63,7 @@ export class Display {
 
 export function makeTools(app, display, help) {
   const fit = iconButton('fit', 'Fit into view (F)', () => app.fit());
+  const follow = iconButton('follow', '', () => app.setFollowing(!app.following));
   const trails = iconButton('trails', TRAIL_WORDS.step, () => display.nextTrails());
   const fade = iconButton('fade', '', () => app.setFading(!app.fading));
   const colours = iconButton('colours', '', () => display.nextColours());
@@ -73,6 +74,8 @@ export function makeTools(app, display, help) {
   const name = (button, title) => { button.title = title; button.setAttribute('aria-label', title.replace(/ \(.*\)$/, '')); };
   colours.hidden = !app.model.hasColours;
   const refresh = () => {
+    name(follow, app.following ? 'The camera follows the step (V)' : 'The camera stays (V)');
+    follow.classList.toggle('on', app.following);
     name(trails, TRAIL_WORDS[app.trailing]);
     trails.classList.toggle('off', app.trailing === 'none');
     name(fade, app.fading ? 'Parts that are out vanish (R)' : 'Parts that are out stay (R)');
@@ -84,5 +87,5 @@ export function makeTools(app, display, help) {
   };
   app.on(what => { if (what === 'display' || what === 'colours') refresh(); });
   refresh();
-  return element('nav.tools', {'aria-label': 'View'}, fit, trails, fade, colours, ground, up, theme, show);
+  return element('nav.tools', {'aria-label': 'View'}, fit, follow, trails, fade, colours, ground, up, theme, show);
 }

@@ -1,38 +1,42 @@
-// The list of steps: moving parts, what is to be known of the one that is shown. A click seeks to the step.
+// The list of steps: moving parts, holds, what to do. A click seeks to the step.
 import {verdictRows, verdictsOf} from '../plan/checks.js';
 import {forcedWords, isBad, lengthWords, number, seconds, share} from '../plan/words.js';
-import {element, swatch} from './dom.js';
+import {addressOfStep} from './address.js';
+import {element, icon, swatch} from './dom.js';
+import {printStep} from './print.js';
 
-let detailsOpen = false;
+let detailsOpen = false;  // for all steps alike
 
-/** How a step was found and verified: true of every good one, so it is closed until somebody asks. */
-function details({plan}, step) {
-  const rows = [];
-  const row = (name, value) => rows.push(element('dt', {}, name), element('dd', {}, value));
-  if (step.max_penetration !== undefined && !step.forced)
-    row('cuts in', `at most ${number(step.max_penetration)} of ${number(plan.verified_max_penetration)} units allowed (${share(step.max_penetration, plan)} of the size)`);
-  if (step.clearance !== undefined) row('clearance', `${number(step.clearance)} units`);
-  if (step.planner) row('found by', `${step.planner}${step.depth ? `, ${step.depth} action${step.depth === 1 ? '' : 's'}` : ''}, in ${seconds(step.seconds ?? 0)}`);
-  if (rows.length === 0) return null;
-  return element('details', {open: detailsOpen, ontoggle: e => { detailsOpen = e.target.open; }}, element('summary', {}, 'Details'), element('dl.facts', {}, rows));
-}
-
+/** What to do in a step, and behind "Details" how it was found and checked. */
 function facts(app, index) {
-  const {step} = app.line.steps[index];
-  const {plan} = app.model, rows = [];
-  const row = (name, value) => rows.push(element('dt', {}, name), element('dd', {}, value));
+  const {step} = app.line.steps[index], {plan} = app.model, rows = [], details = [];
+  const put = to => (name, ...value) => to.push(element('dt', {}, name), element('dd', {}, ...value));
+  const row = put(rows), detail = put(details);
   const {lies_words: lies, turned} = app.model.about(app.mode, index);
   if (turned) row('first', 'turn the assembly');
   if (lies) row('lies', lies);
+  const held = app.model.held(app.mode, index);
+  if (held.length > 0) row('hold', element('span.chips', {}, held.map(i => element('button.chip.held', {type: 'button', onclick: () => app.select(i),
+    onmouseenter: () => app.hover(i), onmouseleave: () => app.hover(-1)}, app.model.parts[i].name))));
+  const verdicts = verdictRows(verdictsOf(plan, step, app.mode));
+  for (const [name, text] of verdicts) if (name === 'note' || name === 'not allowed') row(name, text);
   if (step.moves.length > 1) row('moves', step.moves.map(m => m.part).join(', '));
   if (step.separates?.some(g => g.length > 1)) row('group', step.separates.filter(g => g.length > 1).map(g => g.join(', ')).join(' | '));
+  if (step.forced) row('forced', forcedWords(step.forced, plan));
   if (step.contacts?.length > 0) row('touches', step.contacts.join(', '));
   if (step.after?.length > 0) row('after', `step${step.after.length === 1 ? '' : 's'} ${step.after.join(', ')}`);
+  if (step.max_penetration !== undefined && !step.forced)
+    detail('cuts in', `at most ${number(step.max_penetration)} of ${number(plan.verified_max_penetration)} units allowed (${share(step.max_penetration, plan)} of the size)`);
+  if (step.clearance !== undefined) detail('clearance', `${number(step.clearance)} units`);
+  if (step.planner) detail('found by', `${step.planner}${step.depth ? `, ${step.depth} action${step.depth === 1 ? '' : 's'}` : ''}, in ${seconds(step.seconds ?? 0)}`);
   for (const o of step.overlaps ?? [])
-    row('overlap', `${o.pair.join(' and ')}: ${lengthWords(o.assembled, plan)} when assembled, up to ${number(o.depth)} along the way${o.at ? `, at ${o.at.map(number).join(', ')}` : ''}${o.region ? '; only where they overlap when assembled' : ''}`);
-  if (step.forced) row('forced', forcedWords(step.forced, plan));
-  for (const [name, text] of verdictRows(verdictsOf(plan, step, app.mode))) row(name, text);
-  return element('div.about', {}, rows.length === 0 ? null : element('dl.facts', {}, rows), details(app.model, step));
+    detail('overlap', `${o.pair.join(' and ')}: ${lengthWords(o.assembled, plan)} when assembled, up to ${number(o.depth)} along the way${o.at ? `, at ${o.at.map(number).join(', ')}` : ''}${o.region ? '; only where they overlap when assembled' : ''}`);
+  for (const [name, text] of verdicts) if (name !== 'note' && name !== 'not allowed') detail(name, text);
+  const here = addressOfStep(app.mode, step.step);
+  return element('div.facts-of', {}, rows.length > 0 ? element('dl.facts', {}, rows) : null,
+    element('div.chips', {}, element('a.chip', {href: here, title: 'The address of this step'}, icon('link'), here),
+      element('button.chip', {type: 'button', title: 'Print this step (P)', onclick: () => printStep(app)}, icon('print'), 'Print')),
+    element('details', {open: detailsOpen, ontoggle: event => { detailsOpen = event.target.open; }}, element('summary', {}, 'Details'), element('dl.facts', {}, details)));
 }
 
 /** The line of a run: "3–6  4x screw". A click shows its steps, or hides them. */
@@ -64,6 +68,7 @@ export function makeSteps(app) {
       const button = element('button.step', {type: 'button', title: 'Go to this step',
         onclick: () => { app.goToStep(index); if (parts.length === 1) app.select(parts[0]); }},
         element('span.count', {}, String(step.step)), colours, names,
+        app.model.held(app.mode, index).length > 0 ? element('span.pill.held', {}, 'hold') : null,
         step.forced ? element(`span.pill${isBad(step) ? '.bad' : ''}`, {}, isBad(step) ? 'forced' : step.forced.accepted) : null);
       return element('li', {}, button);
     });
@@ -85,7 +90,7 @@ export function makeSteps(app) {
   function mark() {
     if (open >= 0 && items[open]) {
       items[open].classList.remove('open');
-      items[open].querySelector('.about')?.remove();
+      items[open].querySelector('.facts-of')?.remove();
     }
     open = app.step;
     for (const run of runs) {

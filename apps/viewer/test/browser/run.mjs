@@ -308,6 +308,88 @@ test('equal steps that follow each other are one line, which opens where time or
   await page.close();
 });
 
+/** The shelf's plan with a check's note on its second step: a part to hold. */
+const heldPlan = name => changedPlan(folder, 'stacked_box', name, plan => {
+  const held = plan.remaining[0];
+  plan.objective = {up: [0, 0, 1], cost: 1, checks: [{type: 'gravity', weight: 1, parameters: {}, cost: 1}]};
+  plan.disassembly.forEach((step, k) => {
+    step.checks = [{type: 'gravity', weight: 1, cost: k === 1 ? 1 : 0, allowed: true, ...k === 1 ? {reason: '1 part must be held', notes: [
+      {kind: 'gravity', text: `Hold '${held}': it tips.`, data: {hold: [{part: held, when: 'during', newton: 2}], hands: 2}}]} : {}}];
+  });
+});
+
+test('a step shows what moves, what must be held, and the notes; how it was found is behind "Details"', async () => {
+  const page = await open(browser, heldPlan('held')), {plan} = shelf, [held] = plan.remaining, state = () => page.evaluate('window.dismantle.state()');
+  assert.deepEqual(await page.locator('.steps .pill.held').count(), 1);
+  await page.evaluate('window.dismantle.seek(window.dismantle.timeOf("disassembly", 1, 0))');
+  assert.deepEqual((await state()).moving, plan.disassembly[1].moves.map(m => m.part));
+  assert.deepEqual((await state()).held, [held]);
+  const step = page.locator('.steps li.open');
+  assert.match(await step.textContent(), new RegExp(`hold${held}.*Hold '${held}': it tips`, 's'));
+  assert.equal(await step.getByText('found by').isVisible(), false);
+  await step.locator('summary').click();
+  assert.equal(await step.getByText('found by').isVisible(), true);
+  await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('ArrowRight');
+  assert.deepEqual((await state()).held, []);
+  assert.equal(await page.locator('.steps li.open').getByText('found by').isVisible(), true, 'details stay open');
+  // Backwards it is the same operation.
+  const n = plan.disassembly.length;
+  await page.keyboard.press('a');
+  await page.evaluate(s => window.dismantle.seek(window.dismantle.timeOf('assembly', s, 0)), n - 2);
+  assert.deepEqual((await state()).held, [held]);
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+});
+
+test('an address opens the page at a step, and follows its changes', async () => {
+  const page = await open(browser, `${shelf.file}#step=2`), state = () => page.evaluate('window.dismantle.state()');
+  assert.equal((await state()).step, 1);
+  assert.equal(await page.locator('.steps li.open a').getAttribute('href'), '#step=2');
+  await page.evaluate(() => { location.hash = '#step=3&mode=assembly'; });
+  await page.waitForFunction(() => window.dismantle.state().mode === 'assembly');
+  assert.equal((await state()).step, 2);
+  await page.evaluate(() => { location.hash = '#step=99'; });
+  await page.waitForTimeout(100);
+  assert.equal((await state()).step, 2, 'there is no such step');
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+});
+
+onPage('the camera follows the step if asked to', () => shelf.file, async page => {
+  const view = () => page.evaluate('window.dismantle.camera()'), seek = k => page.evaluate(s => window.dismantle.seek(window.dismantle.timeOf('disassembly', s, 0)), k);
+  await seek(0);
+  const before = await view();
+  await seek(1);
+  assert.deepEqual(await view(), before, 'it stays by itself');
+  await page.keyboard.press('v');
+  assert.equal((await page.evaluate('window.dismantle.state()')).following, true);
+  await page.waitForFunction(() => !window.dismantle.flying());
+  const then = await view();
+  assert.ok(distance(then.target, before.target) > 1e-3);
+  await seek(2);
+  await page.waitForFunction(() => !window.dismantle.flying());
+  assert.ok(distance((await view()).target, then.target) > 1e-3);
+});
+
+onPage('the print of a step has its picture and its words, and nothing else', () => shelf.file, async page => {
+  await page.evaluate('window.dismantle.seek(window.dismantle.timeOf("disassembly", 1, 0))');
+  const printed = page.evaluate(() => new Promise(done => {
+    window.print = () => {
+      const sheet = document.querySelector('.sheet'), image = sheet.querySelector('img');
+      done({title: sheet.querySelector('h1').textContent, width: image.naturalWidth, others: document.querySelectorAll('.sheet').length});
+    };
+  }));
+  await page.keyboard.press('p');
+  const {title, width} = await printed;
+  assert.match(title, new RegExp(`^Step 2 of ${shelf.plan.disassembly.length}: ${shelf.plan.disassembly[1].moves[0].part}`));
+  assert.ok(width > 100);
+  assert.equal(await page.locator('.sheet').count(), 0, 'it is gone afterwards');
+  await page.emulateMedia({media: 'print'});
+  assert.equal(await page.locator('.page').isVisible(), true, 'without a sheet the page itself is printed');
+  await page.emulateMedia({media: null});
+});
+
 onPage('help, theme, up axis, fading, paths', () => shelf.file, async page => {
   const state = () => page.evaluate('window.dismantle.state()');
   await page.keyboard.press('?');

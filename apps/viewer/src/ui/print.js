@@ -1,0 +1,22 @@
+// Print of one step: the picture as it is shown, and what the step says.
+import {titleOf} from '../plan/words.js';
+import {element} from './dom.js';
+import {captionOf} from './transport.js';
+
+/** Opens the browser's print dialog for a sheet that only the printer sees. */
+export function printStep(app) {
+  const {steps} = app.line, at = app.step;
+  if (at < 0) return;
+  const facts = document.querySelector('.steps li.open .facts')?.cloneNode(true);
+  const {lies_words: lies} = app.model.about(app.mode, at);
+  const sheet = element('section.sheet', {}, element('p', {}, `${titleOf(app.model.plan)} · ${app.mode === 'assembly' ? 'put together' : 'take apart'}`),
+    element('h1', {}, `Step ${steps[at].step.step} of ${steps.length}: ${captionOf(app, at)}`), lies ? element('p', {}, `lies: ${lies}`) : null,
+    app.stage ? element('img', {alt: '', src: app.stage.picture()}) : null, facts);
+  document.body.append(sheet);
+  const image = sheet.querySelector('img'), show = () => {
+    window.print();
+    sheet.remove();
+  };
+  if (image) image.decode().then(show, show);
+  else show();
+}
