@@ -19,10 +19,10 @@ function readShape(shape) {
   };
 }
 
-function readView({up, leavers, steps, runs, animations, parts, reasons, untried}) {
+function readView({up, leavers, account, steps, runs, animations, parts, reasons, untried}) {
   const animation = ({duration, times}) => ({duration, times: array(Float32Array, times)});
   return {
-    up, leavers, steps, runs, reasons, untried,
+    up, leavers, account, steps, runs, reasons, untried,
     animations: {disassembly: animation(animations.disassembly), assembly: animation(animations.assembly)},
     rank: parts.rank,
     out: parts.out,

@@ -12,6 +12,7 @@
 #include "dismantle/plan_io/base64.h"
 #include "dismantle/plan_io/explode.h"
 #include "dismantle/plan_io/input_frame.h"
+#include "dismantle/plan_io/plan_account.h"
 #include "dismantle/plan_io/plan_history.h"
 #include "explain/reach.h"
 #include "page_steps.h"
@@ -94,6 +95,11 @@ ViewJson reasons_json(const Explanation& why, const Assembly& assembly, const Pl
   return out;
 }
 
+ViewJson account_json(const Plan& plan) {
+  const PlanAccount account = account_of(plan);
+  return {{"checked", account.checked}, {"not_checked", account.not_checked}, {"assumed", account.assumed}};
+}
+
 }  // namespace
 
 ViewJson page_view(const Plan& plan, const Assembly& assembly, const PartShapes& shapes,
@@ -106,6 +112,7 @@ ViewJson page_view(const Plan& plan, const Assembly& assembly, const PartShapes&
   for (const std::string& name : why.untried) untried.push_back(history.index_of(name));
   return {{"up", input_frame(plan.assembly).y_up ? "y" : "z"},
           {"leavers", history.leavers()},
+          {"account", account_json(plan)},
           {"steps", page_steps(plan)},
           {"runs", page_runs(plan, step_runs(plan, shapes))},
           {"animations", {{"disassembly", animation_json(disassembly)}, {"assembly", animation_json(together)}}},

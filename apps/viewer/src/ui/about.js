@@ -1,9 +1,14 @@
-// Describes the assembly of the plan and what was verified.
+// The summary: what was checked, not checked and assumed, and the figures of the plan.
 import {counted, number, seconds, share} from '../plan/words.js';
 import {objectiveText} from '../plan/checks.js';
-import {element} from './dom.js';
+import {element, icon} from './dom.js';
+
+/** Lines of the account, which come with the page. */
+const account = (kind, title, sign, lines) => lines.length === 0 ? null : element(`section.account.${kind}`, {}, element('h2', {}, icon(sign), title),
+  element('ul', {}, lines.map(line => element('li', {}, line))));
 
 export function makeAbout(app) {
+  const {checked, not_checked: open, assumed} = app.model.view.account;
   const {plan} = app.model, {assembly} = plan, rows = [];
   const row = (name, ...value) => rows.push(element('dt', {}, name), element('dd', {}, ...value));
   const worst = Math.max(0, ...plan.disassembly.map(s => s.max_penetration));
@@ -17,7 +22,7 @@ export function makeAbout(app) {
   if (layers > 0) row('layers', `${layers} (steps of one layer do not wait for each other)`);
   row('putting together', {complete: 'each part is brought from the layout', partial: 'some parts are not brought from the layout',
     reversed: 'the disassembly backwards'}[plan.assembly_status] ?? 'not planned');
-  row('checked', `on the original triangles, between poses too: no step cuts in deeper than ${share(worst, plan)} of the size (${number(worst)} of ${number(plan.verified_max_penetration)} units allowed)`);
+  row('deepest', `no step cuts in deeper than ${share(worst, plan)} of the size (${number(worst)} of ${number(plan.verified_max_penetration)} units allowed)`);
   const objective = objectiveText(plan);
   if (objective) row('objective', objective);
   const box = assembly.bbox;
@@ -26,7 +31,8 @@ export function makeAbout(app) {
   row('made by', `${plan.generator.name} ${plan.generator.version}, seed ${plan.seed}`);
   row('input', element('code', {}, assembly.sha256));
   const overlaps = assembly.overlaps.slice().sort((a, b) => b.depth - a.depth);
-  return element('div.pane', {}, element('dl.facts.wide', {}, rows),
+  return element('div.pane', {}, account('good', 'Checked', 'check', checked), account('warn', 'Not checked', 'warning', open),
+    account('plain', 'Assumed', 'help', assumed), element('dl.facts.wide', {}, rows),
     overlaps.length === 0 ? null : element('details', {}, element('summary', {}, `${counted(overlaps.length, 'pair')} overlap when assembled`),
       element('p.note', {}, 'Usual in CAD: allowed as it was, for this pair alone.'),
       element('ul.plain', {}, overlaps.map(o => element('li', {}, `${o.a} and ${o.b}: ${share(o.depth, plan)} of the size${o.class ? `, ${o.class.replaceAll('_', ' ')}` : ''}`)))));

@@ -16,7 +16,7 @@ function summary({plan, result}) {
 export function makePanel(app) {
   const {plan} = app.model, problems = makeProblems(app);
   const tabs = [['steps', 'Steps', makeSteps(app)], ['parts', 'Parts', makePartList(app)],
-    ...problems ? [['problems', 'Problems', problems.pane]] : [], ['about', 'About', makeAbout(app)]];
+    ...problems ? [['problems', 'Problems', problems.pane]] : [], ['about', 'Summary', makeAbout(app)]];
   const buttons = tabs.map(([key, words]) => element('button', {type: 'button', role: 'tab', id: `tab-${key}`, 'aria-controls': `pane-${key}`,
     onclick: () => open(key)}, words, key === 'problems' ? element('span.badge', {}, String(problems.count)) : null));
   tabs.forEach(([key, , pane]) => {
