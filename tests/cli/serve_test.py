@@ -253,6 +253,30 @@ class Serve(CliTest):
         self.ask("/api/move", name="box", step=1, before=99)
         self.assertEqual(self.wait("box")["job"]["state"], "failed")
 
+    def test_marked_parts_are_constraints_of_the_command_line(self):
+        self.blocks()
+        self.write("in/blocks.yaml", "schema: 1\nrun: {seed: 7}\n")
+        chosen = {"base": ["plate"], "ignore": ["block_3"], "together": [["block_0", "block_1"]]}
+        self.ask("/api/constraints", name="blocks", constraints=chosen)
+        self.assertEqual(self.product("blocks")["constraints"], chosen)
+        product = self.plan("blocks", timeout=60)
+        self.assertEqual((product["job"]["state"], product["job"]["status"]), ("done", "complete"), product)
+        self.assertEqual(sorted(sorted(s["parts"]) for s in product["steps"]), [["block_0", "block_1"], ["block_2"]])
+        self.assertIn("block_3", product["parts"], "what is left out can be taken in again")
+        self.assertEqual(product["yaml"], self.read("in", "blocks.constraints.yaml"))
+        self.run_program("plan", "in/blocks", "-c", "in/blocks.constraints.yaml", "--timeout", "60", "-o", "alone", "-q", status=0)
+        served, alone = (json.loads(self.read(*f, "plan.json")) for f in (("in", "blocks.plan"), ("alone",)))
+        self.assertEqual((served["seed"], served["disassembly"][0]["moves"]), (7, alone["disassembly"][0]["moves"]))
+        for wrong in ({"base": ["nobody"]}, {"run": {"seed": 1}}, {"base": "plate"}, []):
+            self.ask("/api/constraints", status=400, name="blocks", constraints=wrong)
+        self.ask("/api/constraints", name="blocks", constraints={"base": ["plate"], "target": "plate"})
+        product = self.plan("blocks", timeout=60)
+        self.assertEqual(product["job"]["state"], "failed", "a contradiction")
+        self.assertIn("plate", product["job"]["message"])
+        self.ask("/api/constraints", name="blocks", constraints={})
+        self.assertFalse(os.path.exists(self.path("in", "blocks.constraints.yaml")))
+        self.assertEqual(len(self.plan("blocks", timeout=60)["steps"]), 4)
+
 
 if __name__ == "__main__":
     unittest.main()

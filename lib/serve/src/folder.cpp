@@ -81,10 +81,17 @@ std::optional<Entry> Folder::entry(const std::string& name) const {
   return {};
 }
 
+bool Folder::has_file(const fs::path& path) const { return is_file(path); }
+
+std::optional<fs::path> Folder::constraints(const std::string& name) const {
+  const fs::path file = path_ / (name + ".constraints.yaml");
+  return is_file(file) ? std::optional(file) : std::nullopt;
+}
+
 std::optional<fs::path> Folder::settings(const std::string& name) const {
-  for (const char* ending : {".constraints.yaml", ".yaml"})
-    if (const fs::path file = path_ / (name + ending); is_file(file)) return file;
-  return {};
+  if (const auto file = constraints(name)) return file;
+  const fs::path file = path_ / (name + ".yaml");
+  return is_file(file) ? std::optional(file) : std::nullopt;
 }
 
 std::optional<fs::path> Folder::plan_file(const std::string& name, const std::string& file) const {

@@ -44,12 +44,17 @@ class Folder {
 
   std::filesystem::path plan(const std::string& name) const { return path_ / (name + ".plan"); }
   std::filesystem::path fresh(const std::string& name) const { return path_ / (name + ".plan.new"); }
+  /// A file, not a link to one.
+  bool has_file(const std::filesystem::path& path) const;
+  /// The constraints that were chosen in the page; nothing: none.
+  std::optional<std::filesystem::path> constraints(const std::string& name) const;
   /// Settings to plan with; nothing: the defaults.
   std::optional<std::filesystem::path> settings(const std::string& name) const;
 
   /// A file of a plan that may be given away; nothing when it is not there or no such file.
   std::optional<std::filesystem::path> plan_file(const std::string& name, const std::string& file) const;
-  /// Number of parts and steps, the status, and a text that is another one for another plan. An empty object without a readable plan.
+  /// Number of parts and steps, the status, and a text that is another one for another plan. An empty object without a
+  /// readable plan.
   nlohmann::json summary(const std::string& name) const;
 
   /// Makes the fresh plan the plan, and keeps the one before. @throws Error.

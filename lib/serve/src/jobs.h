@@ -29,7 +29,7 @@ struct JobReport {
   JobState state = JobState::queued;
   std::string progress;  ///< the last line that the program said
   double seconds = 0;
-  std::string message;                             ///< why it is refused or has failed
+  std::string message;                               ///< why it is refused or has failed
   nlohmann::json result = nlohmann::json::object();  ///< the program's last line
 };
 nlohmann::json to_json(const JobReport& report);

@@ -9,8 +9,10 @@
 #include <thread>
 
 #include "access.h"
+#include "constraints.h"
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/read_file.h"
+#include "dismantle/plan_io/write_file.h"
 #include "folder.h"
 #include "jobs.h"
 #include "page.h"
@@ -174,6 +176,17 @@ class Server::Impl {
     return out;
   }
 
+  /// Steps and parts of the plan, and the constraints that were chosen. @throws Error for files that cannot be read.
+  nlohmann::json known_of(const std::string& name) const {
+    nlohmann::json out = nlohmann::json::object();
+    if (const auto file = folder_.plan_file(name, "plan.json")) out = plan_view(read_file(*file));
+    if (const auto file = folder_.constraints(name)) {
+      out["yaml"] = read_file(*file);
+      out["constraints"] = constraints_in(out["yaml"].get<std::string>());
+    }
+    return out;
+  }
+
   void add_questions() {
     http_.Get("/", [](const Request&, Response& response) {
       response.set_header("Content-Security-Policy",
@@ -194,11 +207,11 @@ class Server::Impl {
     http_.Get("/api/product", guarded([this](const Request& request, Response& response) {
                 const Entry entry = entry_of(request.get_param_value("name"));
                 nlohmann::json out = state_of(entry);
-                if (const auto file = folder_.plan_file(entry.name, "plan.json")) try {
-                    out.update(plan_view(read_file(*file)));
-                  } catch (const Error& e) {
-                    out["problem"] = e.what();  // it can still be planned anew
-                  }
+                try {
+                  out.update(known_of(entry.name));
+                } catch (const Error& e) {
+                  out["problem"] = e.what();  // it can still be planned anew
+                }
                 answer(response, out);
               }));
     http_.Get(R"(/plan/([^/]+)/([^/]+))", guarded([this](const Request& request, Response& response) {
@@ -226,6 +239,7 @@ class Server::Impl {
                }));
     on_change("/api/plan", [this](const Entry& entry, const nlohmann::json& question) { plan(entry, question); });
     on_change("/api/move", [this](const Entry& entry, const nlohmann::json& question) { move(entry, question); });
+    on_change("/api/constraints", [this](const Entry& entry, const nlohmann::json& q) { constrain(entry.name, q); });
     on_change("/api/undo", [this](const Entry& entry, const nlohmann::json&) {
       if (!folder_.undo(entry.name)) throw Refusal{409, "there is no earlier plan"};
     });
@@ -273,6 +287,26 @@ class Server::Impl {
     if (const auto settings = folder_.settings(entry.name))
       arguments.insert(arguments.end(), {"-c", settings->string()});
     start(entry, "plan", std::move(arguments), timeout);
+  }
+
+  /// Takes effect when it is planned again.
+  void constrain(const std::string& name, const nlohmann::json& question) {
+    if (!question.contains("constraints")) throw Refusal{400, "'constraints' is missing"};
+    const nlohmann::json known = known_of(name);
+    std::set<std::string> parts;
+    for (const auto& part : known.value("parts", nlohmann::json::array())) parts.insert(part.get<std::string>());
+    const fs::path own = folder_.path() / (name + ".yaml");
+    std::string yaml;
+    try {
+      yaml = constraints_yaml(question["constraints"], parts, folder_.has_file(own) ? own.filename().string() : "");
+    } catch (const Error& e) {
+      throw Refusal{400, e.what()};
+    }
+    const fs::path file = folder_.path() / (name + ".constraints.yaml");
+    if (yaml.empty())
+      fs::remove(file);
+    else
+      write_file(file, yaml);
   }
 
   void move(const Entry& entry, const nlohmann::json& question) {

@@ -34,8 +34,9 @@ TEST(Access, OnlyItsOwnAddressIsAllowed) {
     EXPECT_FALSE(allowed_origin(std::string("https://") + host, 8000)) << host;
     EXPECT_FALSE(allowed_origin(host, 8000)) << host;
   }
-  for (const char* host : {"", "127.0.0.1", "localhost", "127.0.0.1:8001", "127.0.0.1:80000", "evil.example:8000",
-                           "127.0.0.1:8000.evil.example", "127.0.0.1.evil.example:8000", "0.0.0.0:8000", "[::1]:8000"}) {
+  for (const char* host :
+       {"", "127.0.0.1", "localhost", "127.0.0.1:8001", "127.0.0.1:80000", "evil.example:8000",
+        "127.0.0.1:8000.evil.example", "127.0.0.1.evil.example:8000", "0.0.0.0:8000", "[::1]:8000"}) {
     EXPECT_FALSE(allowed_host(host, 8000)) << host;
     EXPECT_FALSE(allowed_origin(std::string("http://") + host, 8000)) << host;
   }
@@ -46,7 +47,8 @@ TEST(Access, OnlyItsOwnAddressIsAllowed) {
 TEST(Access, NamesAreThoseOfFilesInTheFolder) {
   for (const char* name : {"gear.step", "Getriebe 2.STEP", "gear", "a..b", "Gehäuse.stl"})
     EXPECT_TRUE(plain_name(name)) << name;
-  for (const char* name : {"", ".", "..", "../gear.step", "/etc/passwd", "a/b", "a\\b", ".hidden", "a\nb", "a\x7f", "\xff.step"})
+  for (const char* name :
+       {"", ".", "..", "../gear.step", "/etc/passwd", "a/b", "a\\b", ".hidden", "a\nb", "a\x7f", "\xff.step"})
     EXPECT_FALSE(plain_name(name)) << name;
   EXPECT_FALSE(plain_name(std::string("a\0b", 3)));
   EXPECT_TRUE(plain_name(std::string(200, 'a')));

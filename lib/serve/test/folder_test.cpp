@@ -64,7 +64,8 @@ TEST_F(FolderTest, ListsWhatCanBePlannedAndWhatIsPlanned) {
   EXPECT_TRUE(gear->has_plan);
   EXPECT_EQ(gear->earlier, 1);
   EXPECT_TRUE(folder().entry("gone")->input.empty());
-  for (const char* name : {"", "..", "../secret", "link", "way", "gear.STEP"}) EXPECT_FALSE(folder().entry(name)) << name;
+  for (const char* name : {"", "..", "../secret", "link", "way", "gear.STEP"})
+    EXPECT_FALSE(folder().entry(name)) << name;
 }
 
 TEST_F(FolderTest, OnlyFilesOfAPlanAreGivenAway) {
@@ -139,7 +140,9 @@ TEST(PlanView, StepsHaveTheNumbersOfTheAssembly) {
 }
 
 TEST(JobReport, SaysWhatAnEndedRunMeans) {
-  const auto state = [](int status, const std::string& output) { return report_of("plan", status, output, "words\n").state; };
+  const auto state = [](int status, const std::string& output) {
+    return report_of("plan", status, output, "words\n").state;
+  };
   EXPECT_EQ(state(0, "{\"status\": \"complete\"}\n"), JobState::done);
   EXPECT_EQ(state(1, "{\"status\": \"partial\"}\n"), JobState::done) << "there is a plan";
   EXPECT_EQ(state(1, "{\"status\": \"refused\", \"step\": 3, \"message\": \"m\"}\n"), JobState::refused);

@@ -12,11 +12,11 @@ namespace dismantle::serve {
 
 struct Settings {
   std::filesystem::path folder;
-  std::filesystem::path program;             ///< `dismantle`, which does the work
-  std::set<std::string> extensions;          ///< of files that it can read, in lower case, without the dot
-  int port = 0;                              ///< 0: one that is free
-  std::size_t max_upload = 200'000'000;      ///< bytes of one file
-  double timeout = 600;                      ///< s, of a plan for which the page names none
+  std::filesystem::path program;         ///< `dismantle`, which does the work
+  std::set<std::string> extensions;      ///< of files that it can read, in lower case, without the dot
+  int port = 0;                          ///< 0: one that is free
+  std::size_t max_upload = 200'000'000;  ///< bytes of one file
+  double timeout = 600;                  ///< s, of a plan for which the page names none
 };
 
 /// Listens on 127.0.0.1 only. Every request but that for the first page needs the token of the address.
