@@ -48,8 +48,8 @@ int run_locally(const bench::Suite& suite, const bench::CampaignOptions& campaig
   console.end_progress();
   std::string text;
   for (const std::string& note : result.replaced) text += note + "\n";
-  text += fmt::format("{} of {} trials done, {} solved; {} run now\nresults: {}\n", result.done,
-                                 result.total, result.solved, result.ran, result.database.string());
+  text += fmt::format("{} of {} trials done, {} solved; {} run now\nresults: {}\n", result.done, result.total,
+                      result.solved, result.ran, result.database.string());
   if (result.interrupted) text += "interrupted: the same command goes on\n";
   text += fmt::format("tables: dismantle report {}\n", campaign.folder.string());
   console.text(text);
@@ -113,7 +113,9 @@ void add_bench(CLI::App& app, Action& action) {
   command->add_option("SUITE.yaml", options->suite, "Suite (docs/benchmark.md)")->required()->option_text(" ");
   command->add_option("-o,--output", options->folder, "Folder for the results; default: SUITE.bench here")
       ->option_text("DIR");
-  command->add_option("--jobs", options->jobs, "Number of trials that run in parallel")->check(CLI::Range(1u, 4096u))->option_text("N");
+  command->add_option("--jobs", options->jobs, "Number of trials that run in parallel")
+      ->check(CLI::Range(1u, 4096u))
+      ->option_text("N");
   command->add_option("--shard", options->shard, "Run just every N-th trial, into a database of its own")
       ->option_text("I/N");
   command->add_option("--launcher", options->launcher, "local, or slurm: submit a job array")
@@ -130,8 +132,9 @@ void add_bench(CLI::App& app, Action& action) {
       ->option_text("PLANNER")
       ->take_all()
       ->allow_extra_args(false);
-  command->add_flag("--replace", options->replace,
-                    "Run rows again that were made with another configuration, plugin, limit or input; keep the others")
+  command
+      ->add_flag("--replace", options->replace,
+                 "Run rows again that were made with another configuration, plugin, limit or input; keep the others")
       ->option_text(" ");
   command->add_flag("--dry-run", options->dry_run, "Print the matrix and how long it may take")->option_text(" ");
   add_format(*command, options->console);

@@ -4,6 +4,7 @@
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
+#include "dismantle/frame_options.h"
 #include "dismantle/host/suggest.h"
 #include "dismantle/plan_io/explain.h"
 #include "dismantle/session/session.h"
@@ -12,7 +13,7 @@ namespace dismantle::app {
 namespace {
 
 struct ExplainOptions {
-  std::string file, part;
+  std::string file, part, show_unit;
   ConsoleOptions console;
 };
 
@@ -33,7 +34,8 @@ int explain_plan(const ExplainOptions& options) {
   const Plan plan = read_plan(options.file);
   check_part(plan, options.part, options.file);
   const Explanation why = explain(plan, settings_beside(options.file), options.part);
-  console.text(explain_text(why));
+  const InputFrame frame = shown_in(input_frame(plan.assembly), options.show_unit);
+  console.text(explain_text(why, text_unit(frame, plan.assembly.box, "input units")));
   if (options.console.format == Format::json) {
     auto result = nlohmann::ordered_json::parse(explain_json(why));
     result["plan"] = options.file;
@@ -50,9 +52,10 @@ void add_explain(CLI::App& app, Action& action) {
   auto options = std::make_shared<ExplainOptions>();
   command->add_option("PLAN.json", options->file, "Plan file")->required()->option_text(" ");
   command->add_option("--part", options->part, "Only this part")->option_text("NAME");
+  add_show_unit(*command, options->show_unit);
   add_format(*command, options->console);
   command->footer(
-      "Lengths are in the unit of the input. Values of the run are read from resolved.yaml beside the plan.\n"
+      "Lengths in JSON are in the unit of the input. Values of the run are read from resolved.yaml beside the plan.\n"
       "Example:\n  dismantle explain out/plan.json --part shaft_1");
   command->callback([&action, options] { action = [options] { return explain_plan(*options); }; });
 }

@@ -15,6 +15,7 @@
 #include "dismantle/each_product.h"
 #include "dismantle/errors.h"
 #include "dismantle/finished_run.h"
+#include "dismantle/frame_options.h"
 #include "dismantle/isolation.h"
 #include "dismantle/plan_files.h"
 #include "dismantle/plan_io/summary.h"
@@ -34,7 +35,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PlanOptions {
-  std::string input, folder, part, resume, from;
+  std::string input, folder, part, resume, from, show_unit;
   std::optional<std::size_t> after;
   bool each = false, keep_finished = false;
   unsigned jobs = 1;
@@ -111,6 +112,8 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
   const LoadedAssembly loaded =
       stoppable(context, [&] { return session.load(options.input, context, {.part = options.part}); });
   const Assembly& assembly = *loaded.assembly;
+  const TextUnit unit =
+      text_unit(shown_in(input_frame(assembly), options.show_unit), assembly.input_box, "input units");
   Saver saver(folder / "plan.json", session, loaded, options.part, console);
   open_output_folder(folder);
   write_file(folder / "resolved.yaml", session.resolved(folder));
@@ -146,7 +149,8 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
   console.end_progress();
 
   const int status = status_of(result, context);
-  std::string text = summary_text(result.plan, options.console.verbose) + effort_text(result, options.console.verbose);
+  std::string text =
+      summary_text(result.plan, options.console.verbose, unit) + effort_text(result, options.console.verbose);
   if (kept) text += kept_text(*kept, options.from);
   if (const auto names = unusable_parts(result.plan); !names.empty())
     text +=
@@ -268,6 +272,7 @@ void add_plan(CLI::App& app, Action& action) {
       ->needs(each);
   command->add_flag("--keep-finished", options->keep_finished)->group("");  // for --each
   add_format(*command, options->console);
+  add_show_unit(*command, options->show_unit);
   add_verbosity(*command, options->console);
   command->footer(
       "Writes index.html (to look at in a browser), plan.json, plan.glb (the animation), precedence.dot and\n"

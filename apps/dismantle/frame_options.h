@@ -1,4 +1,4 @@
-/// The options --unit and --up: properties of the coordinates that the input files do not state.
+/// The options --unit and --up, properties of the coordinates that the input files do not state, and --show-unit.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,9 +10,11 @@
 namespace dismantle::app {
 
 struct FrameOptions {
-  std::string unit, up;  ///< empty: as stated in the files
+  std::string unit, up;   ///< empty: as stated in the files
+  std::string show_unit;  ///< empty: the one that people use
 };
 void add_frame(CLI::App& command, FrameOptions& options);
+void add_show_unit(CLI::App& command, std::string& show_unit);
 
 /// @throws InputError for an unknown unit.
 InputFrame frame_of(const Plan& plan, const FrameOptions& options);

@@ -45,7 +45,8 @@ py::dict read_results(const std::vector<std::filesystem::path>& paths) {
 }
 
 py::dict run_bench(const std::string& suite_file, const std::string& folder, unsigned jobs,
-                   const std::vector<std::string>& only, bool replace, const std::vector<std::string>& command, const py::object& on_progress) {
+                   const std::vector<std::string>& only, bool replace, const std::vector<std::string>& command,
+                   const py::object& on_progress) {
   const CancelToken cancel;
   std::optional<std::function<void(const ProgressEvent&)>> progress;
   if (!on_progress.is_none())

@@ -42,7 +42,7 @@ class ContentWriter {
         assembly_(assembly),
         options_(options),
         frame_(options.frame),
-        unit_(frame_.unit_known ? text_unit(frame_.unit, assembly.input_box) : TextUnit{"units", 1}),
+        unit_(text_unit(frame_, assembly.input_box)),
         size_(assembly.input_box.empty() ? 1 : assembly.input_box.size().maxCoeff()) {
     content_.chapters = instructions(plan_, assembly_, options_.disassembly);
     if (content_.chapters.empty())
@@ -290,14 +290,14 @@ class ContentWriter {
   /// What the plan says about the step.
   void add_plan_facts(const PlanStep& step, BookPage& page) const {
     if (step.forced && step.forced->accepted.empty()) {
-      page.warning = fmt::format("Not verified: {}.", forced_text(plan_, *step.forced));
+      page.warning = fmt::format("Not verified: {}.", forced_text(unit_, *step.forced));
       Facts why;
       if (!step.forced->reason.empty()) why.emplace_back("because", step.forced->reason);
       if (const std::string advice = forced_advice(*step.forced); !advice.empty()) why.emplace_back("you can", advice);
       page.facts.insert(page.facts.begin(), why.begin(), why.end());  // before what may not have room
     }
     if (step.forced && !step.forced->accepted.empty())
-      page.facts.emplace_back(step.forced->accepted, forced_text(plan_, *step.forced));
+      page.facts.emplace_back(step.forced->accepted, forced_text(unit_, *step.forced));
     if (!step.contacts.empty()) page.facts.emplace_back("touches", text::joined(step.contacts));
     for (const PlanVerdict& v : step.checks)
       for (const StepNote& note : v.notes) page.facts.emplace_back("note", note.text);

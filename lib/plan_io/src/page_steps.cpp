@@ -42,7 +42,8 @@ class Holds {
   std::map<std::string, std::size_t> index_;
 };
 
-/// One object per step; `checks_of`: what the objective says of a step. Without any step that says how the assembly lies, nothing is said of it.
+/// One object per step; `checks_of`: what the objective says of a step. Without any step that says how the assembly
+/// lies, nothing is said of it.
 template <class ChecksOf>
 StepsJson steps_json(const Plan& plan, const std::vector<PlanStep>& steps, const StepUps& ups, ChecksOf checks_of) {
   const InputFrame frame = input_frame(plan.assembly);

@@ -25,22 +25,27 @@ void tell_steps(const Plan& plan, PlanAccount& out) {
   const std::size_t forced = plan.forced_steps(), accepted = accepted_steps(plan);
   const double scale = plan.assembly.scale > 0 ? plan.assembly.scale : 1;
   if (const std::size_t n = plan.disassembly.size() - forced; n > 0)
-    out.checked.push_back(fmt::format("the motion of {} at every instant, on the original triangles: parts cut in by at most {}",
-                                      text::counted(n, "step"),
-                                      length_text(plan, plan.verified_max_penetration / scale)));
+    out.checked.push_back(
+        fmt::format("the motion of {} at every instant, on the original triangles: parts cut in by at most {}",
+                    text::counted(n, "step"), length_text(plan, plan.verified_max_penetration / scale)));
   if (accepted > 0)
     out.assumed.push_back(fmt::format("{} may cut in as deep as you accept", text::counted(accepted, "step")));
   if (forced > accepted)
-    out.not_checked.push_back(fmt::format("the motion of {}: forced, no path is known", text::counted(forced - accepted, "step")));
+    out.not_checked.push_back(
+        fmt::format("the motion of {}: forced, no path is known", text::counted(forced - accepted, "step")));
   if (!plan.assembly_steps.empty() && plan.assembly_status != AssemblyStatus::reversed)
-    out.checked.push_back(fmt::format("the way of {} from the layout", text::counted(plan.assembly_steps.size(), "step")));
-  if (plan.assembly_status == AssemblyStatus::partial) out.not_checked.push_back("from the layout: " + plan.assembly_message);
+    out.checked.push_back(
+        fmt::format("the way of {} from the layout", text::counted(plan.assembly_steps.size(), "step")));
+  if (plan.assembly_status == AssemblyStatus::partial)
+    out.not_checked.push_back("from the layout: " + plan.assembly_message);
   if (plan.assembly_status == AssemblyStatus::reversed && !plan.disassembly.empty())
     out.not_checked.push_back("how parts are brought to the assembly: it is the disassembly backwards");
   if (!plan.certificates.empty())
-    out.checked.push_back(fmt::format("{} that parts cannot be separated", text::counted(plan.certificates.size(), "proof")));
+    out.checked.push_back(
+        fmt::format("{} that parts cannot be separated", text::counted(plan.certificates.size(), "proof")));
   if (!plan.remaining.empty() && !plan.succeeded())
-    out.not_checked.push_back(fmt::format("how {} come apart: they are left", text::counted(plan.remaining.size(), "part")));
+    out.not_checked.push_back(
+        fmt::format("how {} come apart: they are left", text::counted(plan.remaining.size(), "part")));
   for (const PlanExcluded& excluded : plan.assembly.excluded)
     out.not_checked.push_back(fmt::format("{}, which is left out: {}", excluded.name, excluded.reason));
 }
@@ -60,10 +65,12 @@ void tell_check(const Plan& plan, const PlanObjectiveItem& item, PlanAccount& ou
       refused += !verdict.allowed;
     }
   if (judged > 0)
-    out.checked.push_back(fmt::format("{}: {}, cost {:.4g}{}", item.type, text::counted(judged, "step"), item.cost,
-                                      refused > 0 ? fmt::format(", {} not allowed", text::counted(refused, "step")) : ""));
+    out.checked.push_back(
+        fmt::format("{}: {}, cost {:.4g}{}", item.type, text::counted(judged, "step"), item.cost,
+                    refused > 0 ? fmt::format(", {} not allowed", text::counted(refused, "step")) : ""));
   if (!failure.empty())
-    out.not_checked.push_back(fmt::format("{} of {}: {}", item.type, text::counted(plan.disassembly.size() - judged, "step"), failure));
+    out.not_checked.push_back(
+        fmt::format("{} of {}: {}", item.type, text::counted(plan.disassembly.size() - judged, "step"), failure));
   if (item.plan && !item.plan->failed.empty())
     out.not_checked.push_back(fmt::format("{} of the plan as a whole: {}", item.type, item.plan->failed));
   else if (item.plan) {
@@ -86,14 +93,15 @@ void tell_gaps(const Plan& plan, PlanAccount& out) {
   };
   if (plan.disassembly.empty()) return;
   if (!has({"gravity", "support"})) out.not_checked.push_back("whether what is built stands, and what must be held");
-  if (!has({"tools"})) out.not_checked.push_back("whether tools and hands have room");
+  if (!has({"tool_access"})) out.not_checked.push_back("whether tools reach their fasteners");
 }
 
 void tell_parts(const Plan& plan, PlanAccount& out) {
   const PlanAssembly& a = plan.assembly;
   const std::size_t flexible = count_of(a.parts, [](const PlanPart& p) { return p.flexible.has_value(); });
-  out.assumed.push_back(flexible == 0 ? std::string("parts are rigid")
-                                      : fmt::format("parts are rigid, but for {}", text::counted(flexible, "flexible part")));
+  out.assumed.push_back(flexible == 0
+                            ? std::string("parts are rigid")
+                            : fmt::format("parts are rigid, but for {}", text::counted(flexible, "flexible part")));
   if (!a.overlaps.empty())
     out.assumed.push_back(fmt::format("{} that overlap when assembled may do so on the way, as deep as then",
                                       text::counted(a.overlaps.size(), "pair")));

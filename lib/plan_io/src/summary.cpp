@@ -33,14 +33,15 @@ std::string excluded_text(const std::vector<PlanExcluded>& excluded) {
 }
 
 /// The motion of a step in words, as a line; "and stays" if it separates nothing.
-std::string moves_text(const Plan& plan, const InputFrame& frame, const PlanStep& step) {
+std::string moves_text(const Plan& plan, const InputFrame& frame, TextUnit unit, const PlanStep& step) {
   if (step.moves.empty()) return {};
   const Aabb& box = plan.assembly.box;
-  const TextUnit unit = frame.unit_known ? text_unit(frame.unit, box) : TextUnit{"units", 1};
+  if (!frame.unit_known) unit.name = "units";
   const double size = box.empty() ? 1 : std::max(box.size().maxCoeff(), 1e-300);
   const Eigen::Vector3d middle = box.empty() ? plan.assembly.center : box.center();
   const MotionSummary motion = summarize_motion(step.moves.front().poses, middle, leg_tolerance(size));
-  return fmt::format("       {}{}\n", motion_words(in_unit(motion, unit.factor), unit.name, frame.y_up, frame.lies(step.up)),
+  return fmt::format("       {}{}\n",
+                     motion_words(in_unit(motion, unit.factor), unit.name, frame.y_up, frame.lies(step.up)),
                      step.separates.empty() ? ", and stays there" : "");
 }
 
@@ -65,8 +66,9 @@ std::string components_text(const std::vector<PlanComponent>& components) {
     };
     if (std::any_of(components.begin(), c, alike)) continue;
     const auto uses = static_cast<std::size_t>(std::count_if(c, components.end(), alike));
-    out += fmt::format("{}: {}{} ({}): {}\n", c->kept ? "one unit" : "single parts", uses > 1 ? fmt::format("{}x ", uses) : "",
-                       c->product, fmt::format("{} bodies", c->parts.size()), c->reason);
+    out += fmt::format("{}: {}{} ({}): {}\n", c->kept ? "one unit" : "single parts",
+                       uses > 1 ? fmt::format("{}x ", uses) : "", c->product, fmt::format("{} bodies", c->parts.size()),
+                       c->reason);
     if (c->kept) out += fmt::format("          --open \"{}\" plans its bodies one by one\n", c->product);
   }
   return out;
@@ -80,7 +82,7 @@ std::size_t accepted_steps(const Plan& plan) {
 }
 
 std::string result_word(const Plan& plan) {
-  return std::string(to_string(plan.succeeded()                        ? PlanStatus::complete
+  return std::string(to_string(plan.succeeded()                      ? PlanStatus::complete
                                : plan.status == PlanStatus::complete ? PlanStatus::partial
                                                                      : plan.status));
 }
@@ -92,7 +94,8 @@ std::string result_text(const Plan& plan) {
       return fmt::format("{}: {}{}{}", word, asked_text(plan), accepted_text(plan),
                          plan.succeeded() ? "" : ", and some parts of the input could not be used");
     case PlanStatus::forced:
-      return fmt::format("{}: {}, in {} by force", word, asked_text(plan), text::counted(plan.forced_steps() - accepted_steps(plan), "step")) +
+      return fmt::format("{}: {}, in {} by force", word, asked_text(plan),
+                         text::counted(plan.forced_steps() - accepted_steps(plan), "step")) +
              accepted_text(plan);
     case PlanStatus::partial:
       break;
@@ -102,7 +105,8 @@ std::string result_text(const Plan& plan) {
                      out.empty() ? "" : fmt::format(", {} is not out", out));
 }
 
-std::string summary_text(const Plan& plan, bool details) {
+std::string summary_text(const Plan& plan, bool details, TextUnit unit) {
+  if (unit.name.empty()) unit = length_unit(plan);
   const auto& a = plan.assembly;
   double worst = 0;
   for (const auto& step : plan.disassembly) worst = std::max(worst, step.max_penetration);
@@ -121,21 +125,21 @@ std::string summary_text(const Plan& plan, bool details) {
     if (details) line += fmt::format("  {:8.2f} s", step.seconds);
     if (step.forced) {
       out += fmt::format("{}  {}: {}\n", line, step.forced->accepted.empty() ? "FORCED" : "accepted",
-                         forced_text(plan, *step.forced));
+                         forced_text(unit, *step.forced));
       continue;
     }
-    if (details) line += fmt::format("  penetration <= {}", length_text(plan, step.max_penetration / scale));
+    if (details) line += fmt::format("  penetration <= {}", length_text(unit, step.max_penetration / scale));
     out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-    if (puzzle) out += moves_text(plan, frame, step);
-    out += overlaps_text(plan, step);
+    if (puzzle) out += moves_text(plan, frame, unit, step);
+    out += overlaps_text(unit, step);
   }
   if (forced > accepted)
     out += fmt::format("{} forced: no verified path was found, the parts are taken out where they cut in least\n",
                        text::counted(forced - accepted, "step"));
   if (plan.disassembly.size() > forced)
     out += fmt::format("every {}step is verified{}\n", forced > 0 ? "other " : "",
-                       details ? fmt::format(": penetration <= {} of {} allowed", length_text(plan, worst / scale),
-                                             length_text(plan, plan.verified_max_penetration / scale))
+                       details ? fmt::format(": penetration <= {} of {} allowed", length_text(unit, worst / scale),
+                                             length_text(unit, plan.verified_max_penetration / scale))
                                : "");
   if (!plan.objective.empty()) out += objective_text(plan) + "\n";
   if (plan.assembly_status == AssemblyStatus::complete)

@@ -140,8 +140,7 @@ TEST(Exports, MarkdownSaysWhyEachForcedStepIsForced) {
   plan.disassembly[2].forced = PlanForced{.part = "hook", .other = "rim", .depth = 1, .reason = "it <snaps>"};
   const std::string numbers = "Step 3 (" + std::to_string(plan.disassembly.size() - 2) + " in assembly)";
   EXPECT_NE(steps_markdown(plan, {}).find("constraints: {accept: "), std::string::npos);
-  EXPECT_NE(steps_markdown(plan, {}).find("- " + numbers + " cuts hook into rim: it \\<snaps\\>; "),
-            std::string::npos);
+  EXPECT_NE(steps_markdown(plan, {}).find("- " + numbers + " cuts hook into rim: it \\<snaps\\>; "), std::string::npos);
 }
 
 TEST(MotionWords, LegsOfAPathAreFoundAgain) {
@@ -247,6 +246,23 @@ TEST(InputFrame, TextsUseTheUnitOfPeople) {
   plan.assembly.unit = "m";
   plan.assembly.box = box(0.3);
   EXPECT_EQ(length_text(plan, 0.0358), "35.8 mm");
+  EXPECT_EQ(length_text(plan, 1.2344), "1234 mm") << "without an exponent";
+  const InputFrame inch = shown_in(input_frame(plan.assembly), "inches");
+  EXPECT_EQ(length_text(text_unit(inch, plan.assembly.box), 0.0254), "1 inch");
+  EXPECT_THROW(shown_in(input_frame(plan.assembly), "ell"), InputError);
+  EXPECT_THROW(shown_in(input_frame(PlanAssembly{}), "mm"), InputError) << "of an input without a unit";
+  plan.assembly.parts.push_back({0, "a", "a.stl"});
+  PlanStep step;
+  step.step = 1;
+  step.forced = PlanForced{.part = "a", .other = "b", .depth = 0.0254, .assembled = 0.00254, .reason = ""};
+  step.moves = {{"a", {Pose{}, Pose{{0, 0, 0.0508}, {1, 0, 0, 0}}}}};
+  step.separates = {{"a"}};
+  plan.disassembly = {step};
+  const std::string cuts = "a cuts 1 inch into b (0.1 inch when assembled)";
+  EXPECT_NE(summary_text(plan, false, text_unit(inch, plan.assembly.box)).find(cuts), std::string::npos);
+  EXPECT_NE(explain_text(explain(plan, {}), text_unit(inch, plan.assembly.box)).find(cuts), std::string::npos);
+  EXPECT_NE(steps_markdown(plan, inch).find("2 inch up"), std::string::npos);
+  EXPECT_NE(steps_csv(plan, inch).find(",inch,"), std::string::npos);
   const MotionSummary motion =
       in_unit(summarize_motion({Pose{}, Pose{{0, 0, -0.0358}, {1, 0, 0, 0}}}, {0, 0, 0}, 1e-3), 1000);
   EXPECT_EQ(motion_words(motion, "mm", false), "35.8 mm down (-Z)");

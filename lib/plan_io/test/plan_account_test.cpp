@@ -33,7 +33,9 @@ TEST(PlanAccount, EveryStepIsCheckedOrNot) {
   for_plans([](const Plan& plan, Rng&) {
     const PlanAccount told = account_of(plan);
     const std::size_t forced = plan.forced_steps(), good = plan.disassembly.size() - forced;
-    const auto steps = [](std::size_t n) { return "the motion of " + std::to_string(n) + (n == 1 ? " step" : " steps"); };
+    const auto steps = [](std::size_t n) {
+      return "the motion of " + std::to_string(n) + (n == 1 ? " step" : " steps");
+    };
     EXPECT_EQ(says(told.checked, "the motion of"), good > 0);
     EXPECT_EQ(says(told.not_checked, "the motion of"), forced > 0);
     EXPECT_TRUE(good == 0 || says(told.checked, steps(good) + " at"));
@@ -69,7 +71,8 @@ TEST(PlanAccount, EachCheckSaysHowManyStepsItJudgedAndWhyNot) {
     EXPECT_FALSE(says(told.not_checked, "what must be held"));
     EXPECT_TRUE(says(told.checked, "gravity: It stands at the end."));
     EXPECT_TRUE(says(told.assumed, "gravity: friction 0.4"));
-    EXPECT_EQ(says(told.checked, "gravity: " + std::to_string(judged) + (judged == 1 ? " step" : " steps")), judged > 0);
+    EXPECT_EQ(says(told.checked, "gravity: " + std::to_string(judged) + (judged == 1 ? " step" : " steps")),
+              judged > 0);
     EXPECT_EQ(says(told.not_checked, "no mass"), judged < plan.disassembly.size());
   });
 }

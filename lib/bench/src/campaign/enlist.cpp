@@ -79,7 +79,8 @@ std::string folder_name(const std::string& name, const std::string& recipe) {
   return out.substr(0, 100) + "-" + sha256_of(name + "|" + recipe).substr(0, 12);
 }
 
-/// Hash of the files of an assembly, or of the sample's name and values. Files that cannot be read are trials that fail.
+/// Hash of the files of an assembly, or of the sample's name and values. Files that cannot be read are trials that
+/// fail.
 std::string hash_of_input(const SuiteAssembly& assembly) {
   Sha256 hash;
   hash.add(assembly.sample);

@@ -59,10 +59,12 @@ ReportRow row_of(const Statement& s, const std::vector<int>& columns, const fs::
 }
 
 std::vector<PluginUse> plugins_of(Sqlite& db, const std::string& config) {
-  auto read = db.prepare("SELECT section, type, plugin, version, file, sha256 FROM plugins WHERE config_hash = ? ORDER BY section");
+  auto read = db.prepare(
+      "SELECT section, type, plugin, version, file, sha256 FROM plugins WHERE config_hash = ? ORDER BY section");
   read.bind(config);
   std::vector<PluginUse> out;
-  while (read.step()) out.push_back({read.text(0), read.text(1), read.text(2), read.text(3), read.text(4), read.text(5)});
+  while (read.step())
+    out.push_back({read.text(0), read.text(1), read.text(2), read.text(3), read.text(4), read.text(5)});
   return out;
 }
 
@@ -166,7 +168,8 @@ class Merger {
       if (known->second != row.input_sha256) differ.insert(row.assembly);
     }
     if (!differ.empty())
-      data_.notes.push_back(fmt::format("Rows are of different files of: {}. They are not comparable.", fmt::join(differ, ", ")));
+      data_.notes.push_back(
+          fmt::format("Rows are of different files of: {}. They are not comparable.", fmt::join(differ, ", ")));
   }
 
   void note_versions() {

@@ -54,9 +54,8 @@ std::set<std::string> Results::changed_inputs(const std::map<std::string, std::s
 }
 
 std::pair<std::int64_t, TrialPlan> Results::known_row(const TrialPlan& t) {
-  auto find = db_.prepare(
-      fmt::format("SELECT id, {} FROM trials WHERE assembly = ? AND variant = ? AND planner = ? AND seed = ?",
-                  plan_columns()));
+  auto find = db_.prepare(fmt::format(
+      "SELECT id, {} FROM trials WHERE assembly = ? AND variant = ? AND planner = ? AND seed = ?", plan_columns()));
   find.bind(t.assembly).bind(t.variant).bind(t.planner).bind(t.seed);
   TrialPlan known;
   if (!find.step()) return {0, known};
@@ -86,9 +85,11 @@ void Results::reset(std::int64_t id, const TrialPlan& trial) {
   std::string columns;
   for_result_columns(TrialResult{},
                      [&](const char* name, const auto&, const char*) { columns += fmt::format(", {} = NULL", name); });
-  for_plan_columns(trial, [&](const char* name, const auto&, const char*) { columns += fmt::format(", {} = ?", name); });
+  for_plan_columns(trial,
+                   [&](const char* name, const auto&, const char*) { columns += fmt::format(", {} = ?", name); });
   auto update = db_.prepare(fmt::format(
-      "UPDATE trials SET state = 'waiting', owner = NULL, owner_host = NULL, lease_until = NULL{} WHERE id = ?", columns));
+      "UPDATE trials SET state = 'waiting', owner = NULL, owner_host = NULL, lease_until = NULL{} WHERE id = ?",
+      columns));
   for_plan_columns(trial, [&](const char*, const auto& value, const char*) { update.bind(value); });
   update.bind(id).done();
 }
@@ -108,7 +109,8 @@ std::vector<std::string> Results::enlist(const Suite& suite, const Wanted& wante
     add.done();
     const bool is_new = db_.changes() > 0;
     const auto [id, known] = known_row(t);
-    if (const std::string differs = is_new ? "" : difference(known, t, changed.contains(t.assembly)); !differs.empty()) {
+    if (const std::string differs = is_new ? "" : difference(known, t, changed.contains(t.assembly));
+        !differs.empty()) {
       if (!wanted.replace)
         throw Error(
             fmt::format("{}: planner '{}' on '{}' (seed {}) has a row already that was made with something else: "
@@ -126,9 +128,10 @@ std::vector<std::string> Results::enlist(const Suite& suite, const Wanted& wante
     const std::string differs =
         changed.contains(t.assembly) ? "the input of the assembly" : shared_difference(known, t);
     if (!differs.empty())
-      throw Error(fmt::format("{}: {} differs from that of the rows of planner '{}' on '{}', which --only does not name: "
-                              "planners would not be comparable. Without --only, --replace runs them again, too",
-                              db_.name(), differs, t.planner, t.assembly));
+      throw Error(
+          fmt::format("{}: {} differs from that of the rows of planner '{}' on '{}', which --only does not name: "
+                      "planners would not be comparable. Without --only, --replace runs them again, too",
+                      db_.name(), differs, t.planner, t.assembly));
   }
   put(db_, "name", suite.name);
   put(db_, "text", suite.text);
@@ -142,8 +145,8 @@ std::vector<std::string> Results::enlist(const Suite& suite, const Wanted& wante
   transaction.commit();
   std::vector<std::string> notes;
   for (const auto& [what, rows] : again)
-    notes.push_back(fmt::format("planner '{}': {} row{} {} run again: {} differs", what.first, rows, rows == 1 ? "" : "s",
-                                rows == 1 ? "is" : "are", what.second));
+    notes.push_back(fmt::format("planner '{}': {} row{} {} run again: {} differs", what.first, rows,
+                                rows == 1 ? "" : "s", rows == 1 ? "is" : "are", what.second));
   return notes;
 }
 

@@ -21,8 +21,8 @@ struct ConfigRecord {
 
 /// What a process wants of a database.
 struct Wanted {
-  std::vector<TrialPlan> trials;              ///< that this process may claim
-  std::vector<TrialPlan> others;              ///< their rows stay as they are, and have to be comparable
+  std::vector<TrialPlan> trials;  ///< that this process may claim
+  std::vector<TrialPlan> others;  ///< their rows stay as they are, and have to be comparable
   std::vector<ConfigRecord> configs;
   std::map<std::string, std::string> inputs;  ///< hash of what each assembly is made from, by its name
   bool replace = false;                       ///< rows of `trials` that were made with something else are run again

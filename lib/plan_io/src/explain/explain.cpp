@@ -6,7 +6,7 @@
 #include <set>
 
 #include "dismantle/errors.h"
-#include "dismantle/plan_io/input_frame.h"
+#include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/plan_history.h"
 #include "explain/advice.h"
 #include "explain/reach.h"
@@ -125,20 +125,22 @@ Explanation explain(const Plan& plan, const ExplainSettings& settings, const std
   return out;
 }
 
-std::string forced_text(const Plan& plan, const PlanForced& forced) {
+std::string forced_text(const TextUnit& unit, const PlanForced& forced) {
   return fmt::format("{} cuts {}{} into {} ({} when assembled){}", forced.part, forced.lower_bound ? "at least " : "",
-                     length_text(plan, forced.depth), forced.other, length_text(plan, forced.assembled),
+                     length_text(unit, forced.depth), forced.other, length_text(unit, forced.assembled),
                      forced.accepted.empty() ? "" : ", accepted as " + forced.accepted);
 }
 
-std::string overlaps_text(const Plan& plan, const PlanStep& step) {
+std::string forced_text(const Plan& plan, const PlanForced& forced) { return forced_text(length_unit(plan), forced); }
+
+std::string overlaps_text(const TextUnit& unit, const PlanStep& step) {
   std::string out;
   const auto point = [](const Eigen::Vector3d& p) {
     return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x(), p.y(), p.z());
   };
   for (const PlanStepOverlap& o : step.overlaps) {
     out += fmt::format("       {} and {} overlap by {} when assembled, by up to {} along the way", o.part, o.other,
-                       length_text(plan, o.assembled), length_text(plan, o.depth));
+                       length_text(unit, o.assembled), length_text(unit, o.depth));
     if (o.at) out += fmt::format(", at {}", point(*o.at));
     if (o.region)
       out += fmt::format(", and only where they do from {} to {}", point(o.region->lo), point(o.region->hi));
@@ -147,9 +149,18 @@ std::string overlaps_text(const Plan& plan, const PlanStep& step) {
   return out;
 }
 
-std::string length_text(const Plan& plan, double length) {
-  const TextUnit unit = text_unit(plan.assembly.unit, plan.assembly.box);
-  return fmt::format("{:.3g} {}", length * unit.factor, unit.name.empty() ? "input units" : unit.name);
+std::string overlaps_text(const Plan& plan, const PlanStep& step) { return overlaps_text(length_unit(plan), step); }
+
+TextUnit length_unit(const Plan& plan) {
+  TextUnit unit = text_unit(plan.assembly.unit, plan.assembly.box);
+  if (unit.name.empty()) unit.name = "input units";
+  return unit;
 }
+
+std::string length_text(const TextUnit& unit, double length) {
+  return fmt::format("{} {}", figure_text(length * unit.factor), unit.name);
+}
+
+std::string length_text(const Plan& plan, double length) { return length_text(length_unit(plan), length); }
 
 }  // namespace dismantle

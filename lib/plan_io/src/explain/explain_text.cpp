@@ -18,9 +18,9 @@ std::string place_text(const Eigen::Vector3d& p) {
 }
 
 /// How far the part came.
-std::string travel_text(const Plan& plan, const LeftPart& part) {
+std::string travel_text(const Plan& plan, const TextUnit& unit, const LeftPart& part) {
   if (!part.moved) return "it did not move";
-  std::string out = "came " + length_text(plan, part.travel);
+  std::string out = "came " + length_text(unit, part.travel);
   if (const double size = size_of(plan); size > 0)
     out += fmt::format(" ({:.1f} % of the assembly's largest edge)", 100 * part.travel / size);
   const double degrees = part.turn * 180 / std::numbers::pi;
@@ -34,20 +34,20 @@ std::string search_text(const LeftPart& part) {
                      part.depth > 0 ? fmt::format(" to depth {}", part.depth) : "", part.seconds);
 }
 
-std::string blockers_text(const Plan& plan, const LeftPart& part) {
+std::string blockers_text(const TextUnit& unit, const LeftPart& part) {
   const std::size_t shown = 6;  // what fits into a line or two
   std::string out;
   for (std::size_t i = 0; i < std::min(part.blockers.size(), shown); ++i) {
     const Blocker& b = part.blockers[i];
     out += (i == 0 ? "" : ", ") + b.part;
     if (b.at) out += " at " + place_text(*b.at);
-    if (b.overlap > 0) out += fmt::format(" (overlaps it by {} when assembled)", length_text(plan, b.overlap));
+    if (b.overlap > 0) out += fmt::format(" (overlaps it by {} when assembled)", length_text(unit, b.overlap));
   }
   if (part.blockers.size() > shown) out += fmt::format(" and {} more", part.blockers.size() - shown);
   return out;
 }
 
-std::string reason_text(const Plan& plan, const LeftReason& reason) {
+std::string reason_text(const Plan& plan, const TextUnit& unit, const LeftReason& reason) {
   const bool one = reason.parts.size() == 1;
   std::string out = one ? fmt::format("\n{} did not come out", reason.parts.front().part)
                         : fmt::format("\n{} parts did not come out", reason.parts.size());
@@ -57,8 +57,8 @@ std::string reason_text(const Plan& plan, const LeftReason& reason) {
   for (const LeftPart& part : reason.parts) {
     const std::string indent = one ? "  " : "    ";
     if (!one) out += fmt::format("  {}\n", part.part);
-    out += fmt::format("{}tried: {}; {}\n", indent, search_text(part), travel_text(plan, part));
-    if (!part.blockers.empty()) out += fmt::format("{}blocked by: {}\n", indent, blockers_text(plan, part));
+    out += fmt::format("{}tried: {}; {}\n", indent, search_text(part), travel_text(plan, unit, part));
+    if (!part.blockers.empty()) out += fmt::format("{}blocked by: {}\n", indent, blockers_text(unit, part));
     if (!shared && !part.message.empty()) out += fmt::format("{}planner: {}\n", indent, part.message);
   }
   if (reason.certificate != nullptr) {
@@ -67,7 +67,7 @@ std::string reason_text(const Plan& plan, const LeftReason& reason) {
     out += fmt::format("  proof {} ({}), for {}; `dismantle verify` checks it again\n    {}\n",
                        reason.certificate_number, c.kind,
                        c.full_tolerance ? std::string("all motions within the tolerance")
-                                        : "motions that cut in by no more than " + length_text(plan, c.margin / scale),
+                                        : "motions that cut in by no more than " + length_text(unit, c.margin / scale),
                        c.text);
   }
   if (shared && !first.empty() && (reason.certificate == nullptr || reason.certificate->text != first))
@@ -96,7 +96,7 @@ std::string notes_text(const PlanStep& step) {
   return out;
 }
 
-std::string steps_text(const Explanation& e) {
+std::string steps_text(const Explanation& e, const TextUnit& unit) {
   if (e.steps.empty()) return "";
   std::size_t width = 4;
   for (const StepReason& step : e.steps) width = text::column_of(width, text::joined(step.parts));
@@ -108,7 +108,7 @@ std::string steps_text(const Explanation& e) {
                        text::padded(text::joined(step.parts), width));
     const PlanStep& done = e.plan->disassembly.at(step.step - 1);
     if (done.forced) {
-      out += fmt::format("FORCED: {}\n", forced_text(*e.plan, *done.forced));
+      out += fmt::format("FORCED: {}\n", forced_text(unit, *done.forced));
       if (const std::string advice = forced_advice(*done.forced); !advice.empty())
         out += fmt::format("{:>5}  what you can do: {}\n", "", advice);
       if (!done.forced->reason.empty()) out += fmt::format("{:>5}  because: {}\n", "", done.forced->reason);
@@ -133,17 +133,19 @@ std::string steps_text(const Explanation& e) {
 
 }  // namespace
 
-std::string explain_text(const Explanation& e) {
+std::string explain_text(const Explanation& e) { return explain_text(e, length_unit(*e.plan)); }
+
+std::string explain_text(const Explanation& e, const TextUnit& unit) {
   const Plan& plan = *e.plan;
   const PlanAssembly& a = plan.assembly;
   const bool complete = plan.status != PlanStatus::partial;
   std::string out = fmt::format("{}: {}, {} done, {}\n", a.source, text::counted(a.parts.size(), "part"),
                                 text::counted(plan.disassembly.size(), "step"), result_text(plan));
   for (const PlanExcluded& part : a.excluded) out += fmt::format("left out: {}: {}\n", part.name, part.reason);
-  for (const LeftReason& reason : e.left) out += reason_text(plan, reason);
+  for (const LeftReason& reason : e.left) out += reason_text(plan, unit, reason);
   if (!e.untried.empty())
     out += fmt::format("\nstill together, without a failed search on record: {}\n", text::joined(e.untried));
-  out += steps_text(e);
+  out += steps_text(e, unit);
   if (e.left.empty() && e.steps.empty() && e.untried.empty())
     out += complete ? "It stays where it is: the others were taken from it.\n" : "Nothing is on record about it.\n";
   return out;

@@ -121,7 +121,7 @@ std::vector<std::string> waits_for(const Plan& plan) {
 }  // namespace
 
 std::string bom_csv(const Plan& plan, const Assembly& assembly, const InputFrame& frame) {
-  const TextUnit unit = frame.unit_known ? text_unit(frame.unit, plan.assembly.box) : TextUnit{"", 1};
+  const TextUnit unit = text_unit(frame, plan.assembly.box, "");
   std::string out = "item,count,name,kind,size,length_x,length_y,length_z,unit,parts\n";
   std::size_t number = 0;
   for (const Item& item : Items(plan, assembly).all()) {
@@ -135,7 +135,7 @@ std::string bom_csv(const Plan& plan, const Assembly& assembly, const InputFrame
 
 std::string steps_csv(const Plan& plan, const InputFrame& frame, const GuidedDistances& guided) {
   const PlanAssembly& a = plan.assembly;
-  const TextUnit unit = frame.unit_known ? text_unit(frame.unit, a.box) : TextUnit{"", 1};
+  const TextUnit unit = text_unit(frame, a.box, "");
   const double size = a.box.empty() ? 1 : std::max(a.box.size().maxCoeff(), 1e-300);
   const Eigen::Vector3d middle = a.box.empty() ? a.center : a.box.center();
   std::string out = "step,parts,motion,x,y,z,travel,turn_degrees,unit,waits_for,forced_depth,notes\n";

@@ -122,7 +122,7 @@ std::string details(const Plan& plan) {
 
 std::string steps_markdown(const Plan& plan, const InputFrame& frame, const GuidedDistances& guided) {
   const PlanAssembly& a = plan.assembly;
-  const TextUnit unit = frame.unit_known ? text_unit(frame.unit, a.box) : TextUnit{"units", 1};
+  const TextUnit unit = text_unit(frame, a.box);
   const double size = a.box.empty() ? 1 : std::max(a.box.size().maxCoeff(), 1e-300);
   const Eigen::Vector3d middle = a.box.empty() ? a.center : a.box.center();
 

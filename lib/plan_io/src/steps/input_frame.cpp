@@ -4,6 +4,7 @@
 #include <cctype>
 #include <numbers>
 
+#include "dismantle/errors.h"
 #include "dismantle/geometry/length_unit.h"
 
 namespace dismantle {
@@ -42,6 +43,21 @@ TextUnit text_unit(const std::string& unit, const Aabb& box) {
   if (unit_named(unit).empty()) return {unit, 1};
   const std::string name = unit_for_people(unit, box.empty() ? 1 : box.size().maxCoeff());
   return {name, metres_in(unit) / metres_in(name)};
+}
+
+TextUnit text_unit(const InputFrame& frame, const Aabb& box, const std::string& unknown) {
+  if (!frame.shown.empty()) return {frame.shown, frame.metres / metres_in(frame.shown)};
+  return frame.unit_known ? text_unit(frame.unit, box) : TextUnit{unknown, 1};
+}
+
+InputFrame shown_in(InputFrame frame, const std::string& unit) {
+  if (unit.empty()) return frame;
+  (void)metres_in(unit);
+  if (!frame.unit_known)
+    throw InputError(
+        unit, "lengths cannot be shown in this unit, because the input does not name its own: say it with --unit");
+  frame.shown = unit_named(unit);
+  return frame;
 }
 
 InputFrame input_frame(const Assembly& assembly) { return frame_of(assembly.unit, assembly.parts); }

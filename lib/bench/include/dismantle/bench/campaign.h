@@ -36,8 +36,8 @@ DISMANTLE_API std::filesystem::path database_of(const CampaignOptions& options);
 
 /// Runs the trials that have no row yet and waits for those that other processes run. When `context` is cancelled,
 /// running trials are killed and released. Reports to `context.progress` and `context.log`.
-/// @throws Error when the folder holds rows that were made with something else and `replace` is not set, when `only` names
-/// no planner of the suite, or when the folder cannot be used.
+/// @throws Error when the folder holds rows that were made with something else and `replace` is not set, when `only`
+/// names no planner of the suite, or when the folder cannot be used.
 DISMANTLE_API CampaignResult run_campaign(const Suite& suite, const CampaignOptions& options, RunContext& context);
 
 /// Describes the matrix of trials and estimates how long it may take.

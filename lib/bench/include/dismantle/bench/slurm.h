@@ -11,8 +11,8 @@ namespace dismantle::bench {
 
 struct SlurmJob {
   std::filesystem::path suite, folder, program;
-  unsigned tasks = 1;                ///< in the array
-  unsigned jobs = 1;                 ///< concurrent trials of each task; also its number of cores
+  unsigned tasks = 1;                  ///< in the array
+  unsigned jobs = 1;                   ///< concurrent trials of each task; also its number of cores
   std::vector<std::string> options;    ///< for sbatch, such as --partition=cpu
   std::vector<std::string> arguments;  ///< more arguments of `dismantle bench`
 };

@@ -8,6 +8,7 @@
 
 #include "dismantle/export.h"
 #include "dismantle/plan.h"
+#include "dismantle/plan_io/input_frame.h"
 
 namespace dismantle {
 
@@ -66,20 +67,26 @@ struct Explanation {
 /// `part`: only this one; empty: all. @throws InputError when the plan has no such part.
 DISMANTLE_API Explanation explain(const Plan& plan, const ExplainSettings& settings, const std::string& part = {});
 /// For a terminal; ends with a line break.
-DISMANTLE_API std::string explain_text(const Explanation& explanation);
+DISMANTLE_API std::string explain_text(const Explanation& explanation, const TextUnit& unit);
+DISMANTLE_API std::string explain_text(const Explanation& explanation);  ///< in length_unit()
 /// One JSON object (docs/cli.md).
 DISMANTLE_API std::string explain_json(const Explanation& explanation);
 
 /// What a forced step does: "pin cuts 0.3 mm into hub (0.1 mm when assembled)".
-DISMANTLE_API std::string forced_text(const Plan& plan, const PlanForced& forced);
+DISMANTLE_API std::string forced_text(const TextUnit& unit, const PlanForced& forced);
+DISMANTLE_API std::string forced_text(const Plan& plan, const PlanForced& forced);  ///< in length_unit()
 /// The line of a configuration that accepts a forced step as it is; empty if it is accepted.
 DISMANTLE_API std::string acceptance_line(const PlanForced& forced);
 /// What the user can do beyond what its reason says, with that line; empty: nothing.
 DISMANTLE_API std::string forced_advice(const PlanForced& forced);
 /// A line for each overlap that the step makes use of; may be empty.
-DISMANTLE_API std::string overlaps_text(const Plan& plan, const PlanStep& step);
-/// A length of the plan's input with its unit: "0.25 mm", or "0.25 input units" where the files do not say. In the unit
-/// that people use: text_unit().
+DISMANTLE_API std::string overlaps_text(const TextUnit& unit, const PlanStep& step);
+DISMANTLE_API std::string overlaps_text(const Plan& plan, const PlanStep& step);  ///< in length_unit()
+/// The unit in which people state lengths of the plan's input: text_unit(); "input units" where the files do not say.
+DISMANTLE_API TextUnit length_unit(const Plan& plan);
+/// A length in input units in this unit: "0.25 mm".
+DISMANTLE_API std::string length_text(const TextUnit& unit, double length);
+/// The same in length_unit().
 DISMANTLE_API std::string length_text(const Plan& plan, double length);
 
 }  // namespace dismantle

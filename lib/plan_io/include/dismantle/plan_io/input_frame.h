@@ -2,13 +2,12 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "dismantle/assembly.h"
 #include "dismantle/export.h"
-#include <optional>
-
 #include "dismantle/plan.h"
 
 namespace dismantle {
@@ -19,6 +18,7 @@ struct InputFrame {
   bool unit_known = false;  ///< false: the files name none, and `unit` is the usual one of CAD, "mm" (of glTF: "m")
   double metres = 1e-3;     ///< per input unit, > 0
   bool y_up = false;        ///< input from glTF; all else counts as Z up, as CAD has it
+  std::string shown{};      ///< unit in which texts state lengths; empty: the one that people use
 
   Eigen::Vector3d up() const { return y_up ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ(); }
   /// Turns input axes to those of glTF.
@@ -35,6 +35,14 @@ struct TextUnit {
 
 /// unit_for_people() for an input of this box; `unit` itself when it is empty or not known.
 DISMANTLE_API TextUnit text_unit(const std::string& unit, const Aabb& box);
+
+/// The unit that the frame asks for, else that of people for an input of this box; of an input without a known unit the
+/// unit is called `unknown`.
+DISMANTLE_API TextUnit text_unit(const InputFrame& frame, const Aabb& box, const std::string& unknown = "units");
+
+/// The same frame with lengths shown in `unit` (any of its usual names; empty: no change).
+/// @throws InputError for an unknown unit, and when the unit of the input is not known.
+DISMANTLE_API InputFrame shown_in(InputFrame frame, const std::string& unit);
 
 /// @throws InputError as metres_in().
 DISMANTLE_API InputFrame input_frame(const Assembly& assembly);

@@ -6,6 +6,7 @@
 
 #include "dismantle/export.h"
 #include "dismantle/plan.h"
+#include "dismantle/plan_io/input_frame.h"
 
 namespace dismantle {
 
@@ -17,6 +18,7 @@ DISMANTLE_API std::string result_text(const Plan& plan);
 DISMANTLE_API std::size_t accepted_steps(const Plan& plan);
 /// For a terminal, with a line break at the end: what came out in which order, what stays, what was left out, what
 /// could not be solved. `details`: with the time of the search and the penetration of every step.
-DISMANTLE_API std::string summary_text(const Plan& plan, bool details = false);
+/// `unit`: of all lengths; empty name: length_unit().
+DISMANTLE_API std::string summary_text(const Plan& plan, bool details = false, TextUnit unit = {});
 
 }  // namespace dismantle
