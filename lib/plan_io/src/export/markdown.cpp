@@ -40,14 +40,13 @@ void add_new(std::vector<Value>& to, const std::vector<Value>& values) {
     if (std::ranges::find(to, value) == to.end()) to.push_back(value);
 }
 
-/// Costs, refusals and notes of the checks, notes with their data; the same in several steps once.
+/// Costs, refusals and notes of the checks; the same in several steps once.
 std::string judged_cell(std::span<const PlanStep> steps) {
   std::vector<std::string> lines;
   for (const PlanStep& step : steps) {
     add_new(lines, cost_lines(step.checks));
     for (const PlanVerdict& v : step.checks)
-      for (const StepNote& note : v.notes)
-        add_new(lines, {fmt::format("{} ({}){}{}", note.text, note.kind, note.data.empty() ? "" : ": ", note.data)});
+      for (const StepNote& note : v.notes) add_new(lines, {fmt::format("{} ({})", note.text, note.kind)});
   }
   std::string out;
   for (const std::string& line : lines) out += (out.empty() ? "" : "<br>") + markdown_text(line);
@@ -118,6 +117,20 @@ std::string details(const Plan& plan) {
                    size * a.scale, plan.verified_max_penetration);
 }
 
+/// What checks have written with their notes, for programs; closed until the reader asks. Empty without any.
+std::string note_data(const Plan& plan) {
+  std::string out;
+  for (const PlanStep& step : plan.disassembly)
+    for (const PlanVerdict& v : step.checks)
+      for (const StepNote& note : v.notes)
+        if (!note.data.empty())
+          out += fmt::format("| {} | {} | {} | {} |\n", step.step, markdown_text(v.type), markdown_text(note.kind),
+                             markdown_text(note.data));
+  if (out.empty()) return out;
+  return "\n<details><summary>Data of the notes</summary>\n\n| step | check | note | data |\n|---:|---|---|---|\n" +
+         out + "\n</details>\n";
+}
+
 }  // namespace
 
 std::string steps_markdown(const Plan& plan, const InputFrame& frame, const GuidedDistances& guided) {
@@ -171,7 +184,7 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame, const Guid
     out += guided.empty()
                ? "distances are the lengths of the verified paths, on which the hulls of the parts come apart.\n"
                : "the distance of a straight motion is that to where nothing is beside the part any more.\n";
-    out += forced_reasons(plan) + details(plan);
+    out += forced_reasons(plan) + details(plan) + note_data(plan);
   }
   if (!plan.remaining.empty()) out += fmt::format("\nStays: {}.\n", markdown_text(text::joined(plan.remaining)));
   if (!plan.unsolved.empty()) {
