@@ -6,8 +6,8 @@
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
 #include "dismantle/plan.h"
-#include "dismantle/settings.h"
 #include "dismantle/plan_io/write_file.h"
+#include "dismantle/settings.h"
 
 namespace dismantle::app {
 namespace {
@@ -117,8 +117,8 @@ void add_report(CLI::App& app, Action& action) {
       ->option_text("wall|cpu");
   command->add_option("-o,--output", options->output, "File to write; with --row: folder")->option_text("FILE");
   command->add_option("--table", options->tables, "Just this table; may be repeated")
-      ->check(CLI::IsMember({"setup", "planners", "success", "sizes", "time", "solution", "precision", "pairs", "outcomes", "curves",
-                             "trials"}))
+      ->check(CLI::IsMember({"setup", "planners", "success", "sizes", "time", "solution", "plans", "precision", "pairs",
+                             "outcomes", "counts", "curves", "trials"}))
       ->option_text("setup|planners|success|sizes|time|solution|precision|pairs|outcomes|curves|trials")
       ->take_all()
       ->allow_extra_args(false);

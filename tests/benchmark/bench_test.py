@@ -1,5 +1,6 @@
 """Laws of `dismantle bench`: every trial is a row, once, whatever the planners and the user do."""
 import glob
+import json
 import os
 import pathlib
 import re
@@ -51,12 +52,24 @@ class Isolation(BenchTest):
         self.assertTrue(not status.exists() or re.search(r"^State:\s+[ZX]", status.read_text(), re.M))
 
     def test_the_verifier_has_the_last_word(self):
-        self.suite("  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt, sequence_planner.type: progressive, verify.max_penetration: 0.1}}\n",
-                   more="seeds: 1\nverify: {max_penetration: 1.0e-9}\n")
-        self.assertEqual(self.bench()["solved"], 0)
+        """A plan that was good for the planner, and is not for the verifier."""
+        self.suite("  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt, sequence_planner.type: progressive}}\n",
+                   more="seeds: 1\nverify: {max_penetration: 0.1}\n")
+        self.bench()
         row, = self.rows()
-        self.assertEqual((row["outcome"], row["verified"], row["solved"]), ("solved", 0, 0))
-        self.assertIn("step 1", row["verification"])
+        self.assertEqual((row["outcome"], row["verified"], row["solved"]), ("solved", 1, 1), row["verification"])
+        self.call("sample", "l_slot", "-o", "mesh")
+        self.call("plan", "mesh", "-o", "trial", "--set", "verify.max_penetration=0.1", "--set", "simulator.type=fcl",
+                  "--set", "path_planner.type=t_rrt", "--set", "sequence_planner.type=progressive")
+        for depth, valid in ((0.1, True), (1e-9, False)):
+            request = {"config": "", "input": self.path("mesh"), "sample": "", "sample_values": {}, "rotate": False, "seed": 1, "part": "",
+                       "inputs": self.folder, "input_name": "", "max_penetration": depth}
+            self.write("trial/request.json", json.dumps(request))
+            self.call("bench-trial", "trial", "--verify")
+            with open(self.path("trial/verification.json"), encoding="utf-8") as file:
+                verification = json.load(file)
+            self.assertEqual(verification["valid"], valid, verification)
+        self.assertIn("step 1", verification["problems"][0])
 
     def test_constraints_of_the_suite(self):
         planner = "  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt, sequence_planner.type: progressive}}\n"

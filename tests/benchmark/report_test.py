@@ -166,7 +166,7 @@ class Report(BenchTest):
         self.assertEqual(dict(db.execute("SELECT name, runcount FROM experiments")), {"l_slot": 3, "stacked_box": 3})
         db.close()
 
-    # The columns of version 2. Another list needs another version, or databases of before cannot be continued.
+    # The columns of version 3. Another list needs another version, or databases of before cannot be continued.
     COLUMNS = (
         "id INTEGER, assembly TEXT NOT NULL, variant TEXT NOT NULL, planner TEXT NOT NULL, seed INTEGER NOT NULL, "
         "category TEXT NOT NULL, part TEXT NOT NULL, planner_hash TEXT NOT NULL, config_hash TEXT NOT NULL, "
@@ -176,6 +176,7 @@ class Report(BenchTest):
         "owner_host TEXT, lease_until REAL, outcome TEXT, solved INTEGER, verified INTEGER, complete INTEGER, "
         "max_penetration REAL, verification TEXT, signal INTEGER, exit_status INTEGER, last_words TEXT, input TEXT, "
         "input_sha256 TEXT, parts INTEGER, excluded INTEGER, removed INTEGER, left_together INTEGER, steps INTEGER, "
+        "direction_changes INTEGER, off_axis INTEGER, path_length REAL, path_turns REAL, checks TEXT, "
         "wall_seconds REAL, cpu_seconds REAL, peak_rss_mb REAL, load_seconds REAL, prepare_seconds REAL, "
         "plan_seconds REAL, solve_seconds REAL, proof_seconds REAL, verify_seconds REAL, attempts INTEGER, "
         "memoised INTEGER, simulated_steps REAL, nodes REAL, collision_checks REAL, counts TEXT, host TEXT, "
@@ -197,6 +198,36 @@ class Report(BenchTest):
         db.commit()
         db.close()
         self.assertEqual(self.report("out", "--format", "csv"), self.report("other", "--format", "csv"))
+
+    def test_a_database_of_version_2_is_read_and_continued(self):
+        os.makedirs(self.path("old"))
+        shutil.copy(self.path("out/results.db"), self.path("old"))
+        db = sqlite3.connect(self.path("old/results.db"))
+        for column in ("direction_changes", "off_axis", "path_length", "path_turns", "checks"):
+            db.execute(f"ALTER TABLE trials DROP COLUMN {column}")
+        db.execute("UPDATE suite SET value = '2' WHERE key = 'store_version'")
+        db.commit()
+        db.close()
+        self.assertEqual(self.report("out", "--table", "success"), self.report("old", "--table", "success"))
+        self.assertIn("plans", self.report("old", "--table", "plans"))
+        self.assertEqual(self.bench(out="old")["ran"], 0)
+        db = sqlite3.connect(self.path("old/results.db"))
+        names = {name for _, name, *_ in db.execute("PRAGMA table_info(trials)")}
+        self.assertEqual(db.execute("SELECT value FROM suite WHERE key = 'store_version'").fetchone()[0], "3")
+        db.close()
+        self.assertEqual(names, {column.split()[0] for column in self.COLUMNS.rstrip(", ").split(", ")})
+
+    def test_plans_and_counts_have_tables(self):
+        plans = self.report("out", "--table", "plans", "--format", "csv").splitlines()
+        self.assertEqual(plans[0].split(",")[:4], ["planner", "assemblies", "steps", "changes of direction"])
+        trials = list(csv.DictReader(self.report("out", "--format", "csv").splitlines()))
+        solved = [row for row in trials if row["solved"] == "yes"]
+        self.assertTrue(solved)
+        for row in solved:
+            self.assertGreater(float(row["path length"]), 0)
+        counts = self.report("out", "--table", "counts", "--format", "csv").splitlines()[0].split(",")[2:]
+        self.assertEqual(counts, sorted(name.removeprefix("counts.") for name in trials[0] if name.startswith("counts.")
+                                        and any(row[name] for row in solved)))
 
     def test_what_cannot_be_reported(self):
         os.makedirs(self.path("empty"))

@@ -1,11 +1,13 @@
 // Suite files: what they mean, and that everything that is wrong is reported at once with its place.
 #include "dismantle/bench/suite.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 
 namespace dismantle::bench {
@@ -146,6 +148,55 @@ planners:
       EXPECT_NE(text.find("planner.yaml:2"), std::string::npos) << text;
       EXPECT_NE(text.find("the suite has them for all"), std::string::npos) << text;
     }
+  }
+}
+
+TEST_F(SuiteTest, WhatIsToBeSolvedIsTheSameForAllPlanners) {
+  std::ofstream(folder_ / "odd.yaml") << "schema: 1\nassembly: {open: exclude, subdivide: 0.2}\n"
+                                         "verify: {max_penetration: 0.5}\n";
+  const std::string planners =
+      "schema: 1\nassemblies: [{sample: l_slot}]\nplanners: {odd: {config: odd.yaml}, plain: {}}\n";
+  const std::map<std::string, std::string> wanted = {
+      {"", "wall"}, {"assembly: {open: exclude}\n", "exclude"}, {"assembly: {size: 20}\n", "wall"}};
+  for (const auto& [section, open] : wanted) {
+    const Suite suite = read_suite(write(planners + section + "verify: {max_penetration: 0.02}\n"));
+    ASSERT_EQ(suite.planners.size(), 2u);
+    const auto& odd = suite.planners[0].config.sections;
+    const auto& plain = suite.planners[1].config.sections;
+    EXPECT_EQ(to_text(odd.at("assembly").at("open")), open);
+    EXPECT_EQ(odd.at("assembly").at("subdivide"), ParamValue(0.2)) << "it is the planner's";
+    for (const auto& [key, value] : plain.at("assembly"))
+      if (key != "subdivide") {
+        EXPECT_EQ(odd.at("assembly").at(key), value) << key;
+      }
+    const double size = section.find("20") == std::string::npos ? 1 : 2;
+    EXPECT_EQ(odd.at("verify").at("max_penetration"), ParamValue(0.02 * size));
+    EXPECT_EQ(plain.at("verify"), odd.at("verify"));
+    std::string notes;
+    for (const std::string& note : suite.notes) notes += note + "\n";
+    EXPECT_EQ(notes.find("planners.odd: assembly.open is wall for all planners of the suite, not exclude") !=
+                  std::string::npos,
+              open == "wall")
+        << notes;
+    EXPECT_NE(notes.find("planners.odd: verify.max_penetration is"), std::string::npos) << notes;
+    EXPECT_EQ(notes.find("planners.plain"), std::string::npos) << notes;
+  }
+  for (const char* key : {"verify.max_penetration: 0.1", "assembly.open: exclude", "components.level: solid"})
+    EXPECT_EQ(
+        problems(std::string("schema: 1\nassemblies: [{sample: l_slot}]\nplanners:\n  one: {set: {") + key + "}}\n")
+            .size(),
+        1u)
+        << key;
+}
+
+TEST_F(SuiteTest, TheObjectiveIsThatOfPlannersWithoutOne) {
+  const std::string text = "schema: 1\nassemblies: [{sample: l_slot}]\nplanners:\n  own: {set: {objective: [travel]}}\n  plain: {}\n";
+  for (const bool stated : {false, true}) {
+    const Suite suite = read_suite(write(text + (stated ? "objective: [directions, base]\n" : "")));
+    ASSERT_EQ(suite.planners.size(), 2u);
+    ASSERT_EQ(suite.planners[0].config.objective.size(), 1u);
+    EXPECT_EQ(suite.planners[0].config.objective[0].type, "travel");
+    EXPECT_EQ(suite.planners[1].config.objective.size(), stated ? 2u : 0u);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -19,7 +20,7 @@ namespace {
 
 /// The parts of each group that comes apart in a plan, as a tree: what is taken out of what.
 struct Group {
-  std::vector<std::string> parts;                               // that are in it now
+  std::vector<std::string> parts;                                // that are in it now
   std::vector<std::pair<std::size_t, std::size_t>> taken_out{};  // step of the plan, index of the group
 };
 
@@ -33,6 +34,7 @@ OrderStep step_of(const PlanStep& step, const PlanAssembly& assembly) {
     const Eigen::Vector3d along = poses[k - 1] * point - poses[k] * point;  // of the insertion
     if (!out.direction && along.norm() > 0) out.direction = along.normalized();
     out.travel += along.norm();
+    out.turns += poses[k - 1].q.angularDistance(poses[k].q) / (2 * std::numbers::pi);
   }
   return out;
 }
@@ -149,7 +151,8 @@ Order read_order(const std::filesystem::path& file) {
     steps[step].parts.push_back(part);
     if (const std::string direction = field("direction"); !direction.empty()) {
       steps[step].direction = direction_named(direction);
-      if (!steps[step].direction) throw InputError(where, fmt::format("'{}' is no direction: {}", direction, kDirections));
+      if (!steps[step].direction)
+        throw InputError(where, fmt::format("'{}' is no direction: {}", direction, kDirections));
     }
   }
   if (steps.empty()) throw InputError(file.string(), "it holds no step");
@@ -175,6 +178,7 @@ OrderMeasures measures_of(const Order& order, const PartClasses& classes) {
     ++out.steps;
     out.parts += step.parts.size();
     out.travel += step.travel;
+    out.turns += step.turns;
     if (step.direction) {
       out.off_axis += step.direction->cwiseAbs().maxCoeff() < same;
       out.direction_changes += directed != nullptr && directed->direction->dot(*step.direction) < same;

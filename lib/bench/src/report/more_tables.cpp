@@ -7,6 +7,7 @@
 #include <set>
 
 #include "report/cells.h"
+#include "report/named_figures.h"
 
 namespace dismantle::bench {
 
@@ -72,12 +73,20 @@ Table trials_table(const ReportData& data, const std::vector<std::string>& links
   table.note = "`dismantle report DIR --row N -o FOLDER` writes the plan and the configuration of row N.";
   const auto maybe = [](const auto& value) { return value ? number(double(*value), "{:.6g}") : text(""); };
   const auto yes_no = [](bool value) { return text(value ? "yes" : "no"); };
+  std::set<std::string> named;  // columns that plugins have named
+  const auto figures_of = [](const ReportRow& r) {
+    std::map<std::string, double> figures = named_figures(r.checks, "checks.");
+    figures.merge(named_figures(r.counts, "counts."));
+    return figures;
+  };
+  for (const auto& r : data.rows)
+    for (const auto& [name, value] : figures_of(r)) named.insert(name);
   std::size_t n = 0;
   for (const auto& r : data.rows) {
     std::string words = !r.verification.empty() && r.verified != true ? r.verification : r.last_words;
     while (!words.empty() && words.back() == '\n') words.pop_back();
     words = words.substr(words.rfind('\n') + 1);
-    const std::vector<std::pair<const char*, TableCell>> cells = {
+    std::vector<std::pair<std::string, TableCell>> cells = {
         {"row", whole(++n)},
         {"assembly", text(r.assembly)},
         {"category", text(r.category)},
@@ -90,6 +99,11 @@ Table trials_table(const ReportData& data, const std::vector<std::string>& links
         {"verified", r.verified ? yes_no(*r.verified) : text("")},
         {"deepest", maybe(r.max_penetration)},
         {"removed", maybe(r.removed)},
+        {"steps", maybe(r.steps)},
+        {"direction changes", maybe(r.direction_changes)},
+        {"off axis", maybe(r.off_axis)},
+        {"path length", maybe(r.path_length)},
+        {"turns", maybe(r.path_turns)},
         {"seconds", maybe(r.solve_seconds)},
         {"wall s", number(r.wall_seconds, "{:.3f}")},
         {"cpu s", number(r.cpu_seconds, "{:.3f}")},
@@ -98,6 +112,11 @@ Table trials_table(const ReportData& data, const std::vector<std::string>& links
         {"peak MiB", number(r.peak_rss_mb, "{:.1f}")},
         {"signal", r.signal != 0 ? number(double(r.signal), "{:.0f}") : text("")},
         {"last words", text(words)}};
+    const std::map<std::string, double> figures = figures_of(r);
+    for (const std::string& name : named) {
+      const auto found = figures.find(name);
+      cells.emplace_back(name, found == figures.end() ? text("") : number(found->second, "{:.6g}"));
+    }
     table.columns.clear();
     table.rows.emplace_back();
     for (const auto& [heading, cell] : cells) {

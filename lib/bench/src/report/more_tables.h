@@ -13,6 +13,10 @@ Table planners_table(const ReportData& data);
 Table pairs_table(const std::vector<Contender>& contenders);
 /// Penetration depths along the plans.
 Table precision_table(const std::vector<Contender>& contenders);
+/// Steps, directions and lengths of the plans, costs by step checks.
+Table plans_table(const std::vector<Contender>& contenders);
+/// The planners' own counts.
+Table counts_table(const std::vector<Contender>& contenders);
 /// How trials ended.
 Table outcomes_table(const std::vector<Contender>& contenders);
 /// The curves at a few times.

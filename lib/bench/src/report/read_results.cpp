@@ -77,9 +77,11 @@ class Merger {
       read.bind(key);
       return read.step() ? read.text(0) : std::string();
     };
-    if (value("store_version") != std::to_string(kStoreVersion))
-      throw InputError(file.string(), fmt::format("holds results in version '{}', this Dismantle reads version {}",
-                                                  value("store_version"), kStoreVersion));
+    if (const std::string held = value("store_version");
+        held != std::to_string(kStoreVersion) && held != std::to_string(kOldestVersion))
+      throw InputError(file.string(),
+                       fmt::format("holds results in version '{}', this Dismantle reads versions {} to {}", held,
+                                   kOldestVersion, kStoreVersion));
     append_new(names_, value("name"));
     append_new(data_.planners, value("planners"));
     append_new(data_.variants, value("variants"));

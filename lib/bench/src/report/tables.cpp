@@ -124,19 +124,22 @@ std::vector<Table> tables_of(const ReportData& data, const std::vector<std::stri
   out.back().id = "sizes";
   out.back().title = "Success rate by number of parts (%)";
   out.back().note = "As above.";
-  out.push_back(table_by(contenders, by_size(data), [&](const Contender& c, const Filter& filter) {
-    return time_cell(contenders, c, filter);
-  }));
+  out.push_back(table_by(contenders, by_size(data),
+                         [&](const Contender& c, const Filter& filter) { return time_cell(contenders, c, filter); }));
   out.back().id = "time";
   out.back().title = "Mean time per part (s)";
   out.back().note =
-      "Over the assemblies that every planner solved, of those planners that solved any (their number, and how many this "
-      "planner solved): time from the preparation of the simulator to the end, divided by the number of parts that came "
+      "Over the assemblies that every planner solved, of those planners that solved any (their number, and how many "
+      "this "
+      "planner solved): time from the preparation of the simulator to the end, divided by the number of parts that "
+      "came "
       "out; the mean over an assembly's solved trials, then over assemblies.";
   out.push_back(solution_table(data));
+  out.push_back(plans_table(contenders));
   out.push_back(precision_table(contenders));
   out.push_back(pairs_table(contenders));
   out.push_back(outcomes_table(contenders));
+  out.push_back(counts_table(contenders));
   out.push_back(curves_table(data));
   out.push_back(trials_table(data, links));
   return out;

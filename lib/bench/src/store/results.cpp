@@ -6,6 +6,7 @@
 #include <chrono>
 #include <ctime>
 #include <map>
+#include <set>
 
 #include "dismantle/errors.h"
 #include "store/compress.h"
@@ -20,16 +21,6 @@ double now() { return std::chrono::duration<double>(std::chrono::system_clock::n
 
 void set(Sqlite& db, const std::string& key, const std::string& value) {
   db.prepare("INSERT OR REPLACE INTO suite VALUES (?, ?)").bind(key).bind(value).done();
-}
-
-void check_version(Sqlite& db) {
-  auto version = db.prepare("SELECT value FROM suite WHERE key = 'store_version'");
-  if (!version.step()) return set(db, "store_version", std::to_string(kStoreVersion));
-  if (version.text(0) != std::to_string(kStoreVersion))
-    throw InputError(db.name(),
-                     fmt::format("holds results in version {}, this Dismantle writes version {}; use another "
-                                 "folder",
-                                 version.text(0), kStoreVersion));
 }
 
 template <class T>
@@ -49,6 +40,36 @@ std::string tables() {
     results += fmt::format("{} {}, ", name, sql_type<T>());
   });
   return fmt::format(kTables, planned, results);
+}
+
+/// Columns that rows of an older version lack are empty in them.
+void add_columns(Sqlite& db) {
+  std::set<std::string> there;
+  {
+    auto columns = db.prepare("SELECT name FROM pragma_table_info('trials')");
+    while (columns.step()) there.insert(columns.text(0));
+  }
+  for_result_columns(ReportRow{}, [&]<class T>(const char* name, const T&, const char*) {
+    if (!there.contains(name)) db.run(fmt::format("ALTER TABLE trials ADD COLUMN {} {}", name, sql_type<T>()));
+  });
+}
+
+void check_version(Sqlite& db) {
+  std::string held;
+  {
+    auto version = db.prepare("SELECT value FROM suite WHERE key = 'store_version'");
+    if (version.step()) held = version.text(0);
+  }
+  if (held.empty()) return set(db, "store_version", std::to_string(kStoreVersion));
+  if (held == std::to_string(kOldestVersion)) {
+    add_columns(db);
+    return set(db, "store_version", std::to_string(kStoreVersion));
+  }
+  if (held != std::to_string(kStoreVersion))
+    throw InputError(db.name(),
+                     fmt::format("holds results in version {}, this Dismantle writes version {}; use another "
+                                 "folder",
+                                 held, kStoreVersion));
 }
 
 }  // namespace

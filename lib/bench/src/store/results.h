@@ -86,6 +86,8 @@ class Results {
 inline constexpr std::chrono::seconds kLease{120};
 
 /// Version of the database schema.
-inline constexpr int kStoreVersion = 2;
+inline constexpr int kStoreVersion = 3;
+/// That has the same tables with fewer columns: it is read, and completed where it is written to.
+inline constexpr int kOldestVersion = 2;
 
 }  // namespace dismantle::bench

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <set>
 
@@ -10,6 +9,7 @@
 #include "dismantle/host/suggest.h"
 #include "dismantle/plan_io/read_file.h"
 #include "suite/assemblies.h"
+#include "suite/problem.h"
 
 namespace dismantle::bench {
 namespace {
@@ -18,9 +18,6 @@ namespace fs = std::filesystem;
 
 /// Limit of one range: more seeds are probably a typing error and would use much memory.
 constexpr std::size_t kMaxSeeds = 100000;
-
-/// Sections of configurations that a suite has for all its planners.
-constexpr std::array<std::string_view, 2> kForAll = {"constraints", "importers"};
 
 /// `rotate:` of a variant.
 enum class Rotate { none, random };
@@ -108,6 +105,11 @@ class Reader {
     check_limits();
     read_seed_list();
     if (const ConfigNode* list = required("assemblies")) read_assemblies(*list, suite_, problems_);
+    try {
+      problem_ = problem_of(root, suite_.max_penetration);
+    } catch (const ConfigError& e) {
+      problems_.insert(problems_.end(), e.diagnostics().begin(), e.diagnostics().end());
+    }
     if (const ConfigNode* map = required("planners")) read_planners(*map);
     read_variants();
     if (!problems_.empty()) {
@@ -132,6 +134,7 @@ class Reader {
     std::vector<std::string> known = {"schema", "name",   "assemblies",     "planners", "seeds",
                                       "limits", "verify", "assembly_steps", "variants"};
     known.insert(known.end(), kForAll.begin(), kForAll.end());
+    known.emplace_back("objective");
     for (const auto& member : root_->members)
       if (std::find(known.begin(), known.end(), member.key) == known.end())
         problems_.push_back(member.key_mark.error(unknown_key_message(member.key, {"", "", ""}, known, {})));
@@ -214,8 +217,8 @@ class Reader {
         source.file = (suite_.file.parent_path() / value.scalar).lexically_normal();
       } else if (key == "set" && value.is_map()) {
         for (const auto& item : value.members) {
-          if (const auto section = item.key.substr(0, item.key.find('.')); std::ranges::count(kForAll, section) > 0) {
-            fail(item.key_mark, belongs_to_the_suite(section));
+          if (is_for_all(item.key)) {
+            fail(item.key_mark, belongs_to_the_suite(item.key.substr(0, item.key.find('.'))));
             continue;
           }
           if (item.value.is_map()) {
@@ -233,15 +236,17 @@ class Reader {
       }
     }
     // Planners are compared by what they find, not by how an objective likes it, unless the suite names one.
-    if (std::ranges::none_of(source.set, [](const std::string& s) { return s.starts_with("objective"); })) {
+    const bool own_objective =
+        std::ranges::any_of(source.set, [](const std::string& s) { return s.starts_with("objective"); });
+    if (!own_objective) {
       source.set.emplace_back("objective=[]");
       places.push_back(member.key_mark);
     }
-    load_planner(member.key, source, places, member.key_mark);
+    load_planner(member.key, source, places, member.key_mark, own_objective);
   }
 
   void load_planner(const std::string& name, ConfigSource source, const std::vector<ConfigMark>& places,
-                    const ConfigMark& name_mark) {
+                    const ConfigMark& name_mark, bool own_objective) {
     const Limits& l = suite_.limits;
     const auto option = [&](const char* flag, const char* key, const ParamValue& value) {
       source.options.push_back({flag, key, to_text(value)});
@@ -260,10 +265,16 @@ class Reader {
     };
     try {
       load();
-      if (!check_own_sections(planner)) return;
+      if (auto refusal = own_section(planner)) {
+        problems_.push_back(*std::move(refusal));
+        return;
+      }
+      give_problem(problem_, planner, source, suite_.notes);
       for (const auto section : kForAll)
         if (const auto* member = root_->find(std::string(section))) source.sections.push_back(*member);
-      if (!source.sections.empty()) load();
+      if (const auto* member = root_->find("objective"); member != nullptr && !own_objective)
+        source.sections.push_back(*member);
+      load();
     } catch (const ConfigError& e) {
       for (Diagnostic d : e.diagnostics()) {
         // Errors in `set` refer to this file. Errors without a place refer to the planner's entry.
@@ -281,28 +292,6 @@ class Reader {
     for (const auto& warning : planner.config.warnings)
       suite_.notes.push_back(fmt::format("planners.{}: {}", name, warning));
     suite_.planners.push_back(std::move(planner));
-  }
-
-  static std::string belongs_to_the_suite(std::string_view section) {
-    return fmt::format(
-        "{} of one planner would make the trials of the others another task; the suite has them for all: "
-        "write '{}:' at its top level",
-        section, section);
-  }
-
-  /// False if the planner's file has sections that belong to the suite.
-  bool check_own_sections(const SuitePlanner& planner) {
-    std::vector<Diagnostic> found;
-    for (const auto& name : planner.config.constraint_names) found.push_back(name.place);
-    const bool constrained = !found.empty();
-    for (const auto& [importer, values] : import_params_of(planner.config, *planner.registry))
-      for (const auto& [key, value] : values)
-        found.push_back({planner.config.origins.at(fmt::format("importers.{}.{}", importer, key)), 0, 0, ""});
-    if (found.empty()) return true;
-    found.front().message =
-        fmt::format("planners.{}: {}", planner.name, belongs_to_the_suite(constrained ? "constraints" : "importers"));
-    problems_.push_back(found.front());
-    return false;
   }
 
   void read_variants() {
@@ -353,6 +342,7 @@ class Reader {
   std::vector<Diagnostic> problems_;
   Suite suite_;
   bool assembly_steps_ = false;
+  Problem problem_;
 };
 
 }  // namespace

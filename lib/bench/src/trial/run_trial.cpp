@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "dismantle/errors.h"
+#include "dismantle/orders/order.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/read_file.h"
 #include "dismantle/plan_io/write_file.h"
@@ -74,6 +75,19 @@ class Recorder {
   bool saved_ = false;
 };
 
+/// What the plan is like.
+void measure(const Plan& plan, TrialResult& row) {
+  const OrderMeasures measures = measures_of(order_of(plan), classes_of(plan.assembly));
+  row.steps = plan.disassembly.size();
+  row.direction_changes = measures.direction_changes;
+  row.off_axis = measures.off_axis;
+  if (!plan.assembly.box.empty()) row.path_length = measures.travel / plan.assembly.box.size().maxCoeff();
+  row.path_turns = measures.turns;
+  nlohmann::json checks = nlohmann::json::object();
+  for (const PlanObjectiveItem& item : plan.objective.checks) checks[item.type] = item.cost;
+  row.checks = checks.dump();
+}
+
 /// Why parts remain, for the reader of the row.
 std::string reasons_of(const Plan& plan) {
   std::string text;
@@ -118,7 +132,7 @@ void plan_trial(const fs::path& folder) {
   row.excluded = assembly.excluded.size();
   row.left_together = result.plan.remaining.size();
   row.removed = *row.parts - *row.left_together;
-  row.steps = result.plan.disassembly.size();
+  measure(result.plan, row);
   row.load_seconds = load_seconds;
   row.prepare_seconds = result.prepare_seconds;
   row.plan_seconds = result.plan_seconds;

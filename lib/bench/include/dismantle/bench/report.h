@@ -44,7 +44,8 @@ struct Table {
   std::vector<std::vector<TableCell>> rows;
 };
 
-/// The tables setup, planners, success, sizes, time, solution, precision, pairs, outcomes, curves and trials. `links`: of
+/// The tables setup, planners, success, sizes, time, solution, plans, precision, pairs, outcomes, counts, curves
+/// and trials. `links`: of
 /// each row, to what shows its plan, relative to the page; empty: none.
 DISMANTLE_API std::vector<Table> tables_of(const ReportData& data, const std::vector<std::string>& links = {});
 

@@ -50,6 +50,11 @@ namespace dismantle::bench {
   COLUMN(std::optional<std::int64_t>, removed, "parts that were removed") \
   COLUMN(std::optional<std::int64_t>, left_together, "parts that were not") \
   COLUMN(std::optional<std::int64_t>, steps, "steps of the plan") \
+  COLUMN(std::optional<std::int64_t>, direction_changes, "changes of the direction of insertion between steps") \
+  COLUMN(std::optional<std::int64_t>, off_axis, "steps along no coordinate axis") \
+  COLUMN(std::optional<double>, path_length, "of the part that each step names first, in largest edges of the assembly") \
+  COLUMN(std::optional<double>, path_turns, "whole turns of these parts") \
+  COLUMN(std::string, checks, "cost of the plan by each step check of the objective, without weights, JSON") \
   COLUMN(double, wall_seconds, "of the planning process") \
   COLUMN(double, cpu_seconds, "of the planning process") \
   COLUMN(double, peak_rss_mb, "MiB, of the planning process") \

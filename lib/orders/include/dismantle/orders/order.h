@@ -20,6 +20,7 @@ struct OrderStep {
   std::optional<Eigen::Vector3d> direction{};  ///< unit, of the last stretch of the insertion; none: not known
   std::optional<Eigen::Vector3d> up{};         ///< unit; how the assembly lies; none: not known
   double travel = 0;                           ///< input units; 0: not known
+  double turns = 0;                            ///< whole turns along the path
 };
 
 /// In the order of assembly. What is built apart stands where it is put in, step by step.
@@ -51,6 +52,7 @@ struct OrderMeasures {
   std::size_t reorientations = 0;     ///< changes of `up`
   std::size_t torn = 0;               ///< interruptions between equal parts
   double travel = 0;                  ///< input units
+  double turns = 0;                   ///< whole turns along the paths
 };
 DISMANTLE_API OrderMeasures measures_of(const Order& order, const PartClasses& classes);
 

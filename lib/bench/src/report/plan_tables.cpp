@@ -1,0 +1,134 @@
+// Tables of what the plans are like, and of what the planners count.
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "report/cells.h"
+#include "report/more_tables.h"
+#include "report/named_figures.h"
+
+namespace dismantle::bench {
+namespace {
+
+using Figures = std::map<std::string, double>;
+
+/// The figures of a plan, by the headings of the table.
+Figures plan_figures(const ReportRow& row) {
+  Figures out = named_figures(row.checks, "cost of ");
+  const auto add = [&](const char* name, const auto& value) {
+    if (value) out[name] = static_cast<double>(*value);
+  };
+  add("steps", row.steps);
+  add("changes of direction", row.direction_changes);
+  add("along no axis", row.off_axis);
+  add("path length", row.path_length);
+  add("turns", row.path_turns);
+  add("deepest", row.max_penetration);
+  return out;
+}
+
+/// The mean of each figure: over the solved trials of an assembly, then over assemblies. A figure that a trial does not
+/// have is not counted.
+Figures means_of(const Contender& c, const std::set<std::string>& assemblies, Figures (*figures)(const ReportRow&)) {
+  struct Mean {
+    double sum = 0, count = 0;
+  };
+  std::map<std::string, std::map<std::string, Mean>> each;  // figure, assembly
+  for (const ReportRow* row : c.rows)
+    if (row->solved && assemblies.contains(row->assembly))
+      for (const auto& [name, value] : figures(*row)) {
+        Mean& mean = each[name][row->assembly];
+        mean.sum += value;
+        ++mean.count;
+      }
+  Figures out;
+  for (const auto& [name, means] : each) {
+    double sum = 0;
+    for (const auto& [assembly, mean] : means) sum += mean.sum / mean.count;
+    out[name] = sum / static_cast<double>(means.size());
+  }
+  return out;
+}
+
+std::set<std::string> solved_by(const Contender& c) {
+  std::set<std::string> out;
+  for (const ReportRow* row : c.rows)
+    if (row->solved) out.insert(row->assembly);
+  return out;
+}
+
+/// The assemblies that all planners of the variant solved, of those that solved any.
+std::set<std::string> solved_by_all(const std::vector<Contender>& contenders, const Contender& c) {
+  std::set<std::string> common = solved_by(c);
+  for (const Contender& other : contenders) {
+    const std::set<std::string> theirs = other.variant == c.variant ? solved_by(other) : std::set<std::string>();
+    if (!theirs.empty()) std::erase_if(common, [&](const std::string& name) { return !theirs.contains(name); });
+  }
+  return common;
+}
+
+Table table_of(const std::vector<Contender>& contenders, const std::vector<std::string>& first,
+               Figures (*figures)(const ReportRow&)) {
+  std::vector<Figures> means;
+  std::set<std::string> names;
+  std::vector<std::size_t> counts;
+  for (const Contender& c : contenders) {
+    const std::set<std::string> common = solved_by_all(contenders, c);
+    counts.push_back(common.size());
+    means.push_back(means_of(c, common, figures));
+    for (const auto& [name, value] : means.back()) names.insert(name);
+  }
+  std::vector<std::string> order;
+  for (const std::string& name : first)
+    if (names.erase(name) > 0) order.push_back(name);
+  order.insert(order.end(), names.begin(), names.end());
+  Table table;
+  table.columns = {"planner", "assemblies"};
+  table.columns.insert(table.columns.end(), order.begin(), order.end());
+  for (std::size_t k = 0; k < contenders.size(); ++k) {
+    std::vector<TableCell> row = {text(contenders[k].label), whole(counts[k])};
+    for (const std::string& name : order) {
+      const auto mean = means[k].find(name);
+      row.push_back(mean == means[k].end() ? text("-") : number(mean->second, "{:.4g}"));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace
+
+std::map<std::string, double> named_figures(const std::string& json, const std::string& prefix) {
+  std::map<std::string, double> out;
+  const nlohmann::json figures = nlohmann::json::parse(json, nullptr, false);
+  if (!figures.is_object()) return out;
+  for (const auto& [name, value] : figures.items())
+    if (value.is_number()) out[prefix + name] = value.get<double>();
+  return out;
+}
+
+Table plans_table(const std::vector<Contender>& contenders) {
+  Table table = table_of(
+      contenders, {"steps", "changes of direction", "along no axis", "path length", "turns", "deepest"}, plan_figures);
+  table.id = "plans";
+  table.title = "What the plans are like";
+  table.note =
+      "Over the assemblies that every planner solved, of those planners that solved any: the mean over an assembly's "
+      "solved trials, then over assemblies. Directions are those of insertion; the path length, of the part that each "
+      "step names first, is in largest edges of the assembly, turns are whole ones. Costs are those of the step checks "
+      "of the suite's objective, without weights.";
+  return table;
+}
+
+Table counts_table(const std::vector<Contender>& contenders) {
+  Table table = table_of(contenders, {}, [](const ReportRow& row) { return named_figures(row.counts, ""); });
+  table.id = "counts";
+  table.title = "What the planners count";
+  table.note =
+      "The counts that planners report of themselves, under their own names; over the same trials as the table of "
+      "plans.";
+  return table;
+}
+
+}  // namespace dismantle::bench
