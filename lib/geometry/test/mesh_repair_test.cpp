@@ -284,51 +284,6 @@ TEST(OrientShells, NestingDecides) {
   }
 }
 
-TEST(FillHoles, SmallFlatHolesAreClosed) {
-  Rng rng(7);
-  for (int round = 0; round < 40; ++round) {
-    Mesh m = sphere(Vec3::Zero(), 1, 3);
-    const double volume = signed_volume(m);
-    const auto center = static_cast<std::uint32_t>(rng.below(m.vertices.size()));
-    std::erase_if(m.triangles, [&](const Triangle& t) { return t[0] == center || t[1] == center || t[2] == center; });
-    weld(m, 0);
-    const auto holes = fill_holes(m, {});
-    EXPECT_EQ(holes.size(), 1u);
-    for (const Hole& h : holes) EXPECT_TRUE(h.filled) << h.why_not;
-    EXPECT_TRUE(edge_use(m).closed());
-    EXPECT_NEAR(signed_volume(m), volume, 0.02 * volume);
-  }
-}
-
-TEST(FillHoles, RimsThatAreNotFlatGetTheSmallestSurface) {
-  Mesh m = refine(box({0, 0, 0}, {1, 1, 1}), 3);
-  // Cut a corner off: the rim lies in three planes.
-  std::erase_if(m.triangles, [&](const Triangle& t) {
-    return std::all_of(t.begin(), t.end(), [&](auto v) { return m.vertices[v].minCoeff() > 0.7; });
-  });
-  weld(m, 0);
-  const Mesh open = m;
-  HoleLimits limits;
-  limits.max_unevenness = 0;
-  const auto holes = fill_holes(m, limits);
-  ASSERT_EQ(holes.size(), 1u);
-  EXPECT_TRUE(holes[0].filled) << holes[0].why_not;
-  EXPECT_FALSE(holes[0].flat);
-  EXPECT_TRUE(edge_use(m).closed());
-  EXPECT_NEAR(surface_area(m), surface_area(open) + holes[0].area, 1e-12);
-  EXPECT_LT(holes[0].area, 3 * 0.25 * 0.25);
-}
-
-TEST(FillHoles, LargeHolesStayOpen) {
-  Mesh m = box({0, 0, 0}, {1, 1, 1});
-  m.triangles.resize(10);
-  const auto holes = fill_holes(m, {});
-  ASSERT_EQ(holes.size(), 1u);
-  EXPECT_FALSE(holes[0].filled);
-  EXPECT_NE(holes[0].why_not.find("larger than"), std::string::npos);
-  EXPECT_EQ(edge_use(m).open, 4u);
-}
-
 TEST(TJunctions, AreClosed) {
   Rng rng(8);
   for (int round = 0; round < 30; ++round) {

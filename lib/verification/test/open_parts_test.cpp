@@ -82,6 +82,18 @@ TEST(OpenParts, AreAsDeepAsTheSmallestDisplacementThatFreesThem) {
   }
 }
 
+TEST(OpenParts, AThinPartThatTouchesAWallIsNotSaidToCut) {
+  // Its copy is displaced by no more than a share of its thickness, so a meeting proves nothing about the limit.
+  for (const double thickness : {1e-4, 1e-3}) {
+    Assembly pair = pair_of(shapes::box({-1, -1, 0}, {1, 1, thickness}), cup());
+    pair.parts[0].open = false;
+    const Verifier verifier(pair, {kAllowed});
+    const MotionCheck down = verifier.check_motion({0}, {{1, Pose{}}}, {{Pose{}}, {shapes::shift({0, 0, -5})}});
+    ASSERT_TRUE(down.violation.has_value());
+    EXPECT_TRUE(down.violation->uncertain || down.violation->depth >= kAllowed) << down.violation->depth;
+  }
+}
+
 TEST(OpenParts, CrossedSheetsHaveADepth) {
   const Mesh upright{{{0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}}, {{0, 1, 2}, {0, 2, 3}}};
   EXPECT_GT(penetration_depth(sheet(1, 0.5), Pose{}, upright, Pose{}, 1e-4), 0.4);

@@ -7,6 +7,7 @@
 #include "dismantle/geometry/mesh_edges.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/mesh_repair.h"
+#include "mesh/ring_holes.h"
 
 namespace dismantle {
 namespace {
@@ -173,7 +174,7 @@ std::size_t close_t_junctions(Mesh& mesh, double tolerance) {
 std::vector<Hole> fill_holes(Mesh& mesh, const HoleLimits& limits) {
   std::vector<Hole> holes;
   const double area_limit = limits.max_area_share * surface_area(mesh);
-  for (const auto& loop : hole_loops(mesh)) {
+  for (const auto& loop : mesh_detail::join_ring_holes(mesh, hole_loops(mesh))) {
     Hole hole;
     hole.edges = loop.size();
     std::vector<Vector3d> corners;

@@ -110,7 +110,15 @@ bool DirectedCheck::rests_at(double time) {
   };
   const auto met = find_sides(a_, b_, place, displaced, limits_.most(), lean_, sides_);
   if (!met) return true;
-  return fail(Answer::violated, patch_of(*met, 1).center(), limits_.at(a_.thickness[*met]), *met, time);
+  return fail_at_wall(patch_of(*met, 1), time);
+}
+
+/// The displaced copy meets a triangle. Where the part is so thin that the copy is displaced by less than the limit, that
+/// proves no cut.
+bool DirectedCheck::fail_at_wall(const Patch& patch, double time) {
+  const double reached = allowed(patch);
+  const Answer answer = reached < limits_.most() ? Answer::uncertain : Answer::violated;
+  return fail(answer, patch.center(), reached, patch.triangle, time);
 }
 
 /// The copy is fixed: a patch that meets a triangle at some instant ends the check.
@@ -132,7 +140,7 @@ bool DirectedCheck::settle_wall(const Interval& i, std::uint32_t id, List& later
   const Corners there = placed(mid, moved), begin = placed(i.at0, moved), end = placed(i.at1, moved);
   if (!budget_.spend_test()) return fail(Answer::exhausted, patch.center(), 0, patch.triangle, i.s0);
   if (Sweep(there, there, 0).test(b_.bvh) == SweepResult::unclear)
-    return fail(Answer::violated, patch.center(), most, patch.triangle, s);
+    return fail_at_wall(patch, s);
   double travel = 0;
   for (std::size_t k = 0; k < 3; ++k) travel = std::max(travel, (end[k] - begin[k]).norm());
   // Far below the gap of parts that touch.

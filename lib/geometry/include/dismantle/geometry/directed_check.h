@@ -144,6 +144,7 @@ class DirectedCheck {
   bool sides();
   // walls.cpp: if a part is open
   bool rests_at(double time);
+  bool fail_at_wall(const Patch& patch, double time);
   bool settle_wall(const Interval& i, std::uint32_t id, List& later);
   bool fail(Answer answer, const Eigen::Vector3d& point, double depth, std::uint32_t triangle, double time);
   double allowed(const Patch& patch) const { return limits_.at(a_.thickness[patch.triangle]); }

@@ -1,0 +1,111 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "dismantle/geometry/mesh_measure.h"
+#include "dismantle/geometry/mesh_repair.h"
+#include "dismantle/testing/mesh_damage.h"
+
+namespace dismantle {
+namespace {
+
+using namespace shapes;
+
+TEST(FillHoles, SmallFlatHolesAreClosed) {
+  Rng rng(7);
+  for (int round = 0; round < 40; ++round) {
+    Mesh m = sphere(Vec3::Zero(), 1, 3);
+    const double volume = signed_volume(m);
+    const auto center = static_cast<std::uint32_t>(rng.below(m.vertices.size()));
+    std::erase_if(m.triangles, [&](const Triangle& t) { return t[0] == center || t[1] == center || t[2] == center; });
+    weld(m, 0);
+    const auto holes = fill_holes(m, {});
+    EXPECT_EQ(holes.size(), 1u);
+    for (const Hole& h : holes) EXPECT_TRUE(h.filled) << h.why_not;
+    EXPECT_TRUE(edge_use(m).closed());
+    EXPECT_NEAR(signed_volume(m), volume, 0.02 * volume);
+  }
+}
+
+TEST(FillHoles, RimsThatAreNotFlatGetTheSmallestSurface) {
+  Mesh m = refine(box({0, 0, 0}, {1, 1, 1}), 3);
+  // Cut a corner off: the rim lies in three planes.
+  std::erase_if(m.triangles, [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](auto v) { return m.vertices[v].minCoeff() > 0.7; });
+  });
+  weld(m, 0);
+  const Mesh open = m;
+  HoleLimits limits;
+  limits.max_unevenness = 0;
+  const auto holes = fill_holes(m, limits);
+  ASSERT_EQ(holes.size(), 1u);
+  EXPECT_TRUE(holes[0].filled) << holes[0].why_not;
+  EXPECT_FALSE(holes[0].flat);
+  EXPECT_TRUE(edge_use(m).closed());
+  EXPECT_NEAR(surface_area(m), surface_area(open) + holes[0].area, 1e-12);
+  EXPECT_LT(holes[0].area, 3 * 0.25 * 0.25);
+}
+
+/// A plate of `nx` x 3 unit cells with square bores in the given cells of the middle row, without its lower face.
+Mesh plate_without_floor(int nx, const std::vector<int>& bores) {
+  Mesh m;
+  for (int z = 0; z < 2; ++z)
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x <= nx; ++x) m.vertices.emplace_back(x, y, z);
+  const auto at = [&](int x, int y, int z) { return static_cast<std::uint32_t>((z * 4 + y) * (nx + 1) + x); };
+  const auto solid = [&](int x, int y) {
+    return x >= 0 && x < nx && y >= 0 && y < 3 && !(y == 1 && std::find(bores.begin(), bores.end(), x) != bores.end());
+  };
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    m.triangles.push_back({a, b, c});
+    m.triangles.push_back({a, c, d});
+  };
+  const auto wall = [&](int x0, int y0, int x1, int y1) {  // the material is to the left
+    quad(at(x0, y0, 0), at(x1, y1, 0), at(x1, y1, 1), at(x0, y0, 1));
+  };
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < nx; ++x) {
+      if (!solid(x, y)) continue;
+      quad(at(x, y, 1), at(x + 1, y, 1), at(x + 1, y + 1, 1), at(x, y + 1, 1));
+      if (!solid(x, y - 1)) wall(x, y, x + 1, y);
+      if (!solid(x + 1, y)) wall(x + 1, y, x + 1, y + 1);
+      if (!solid(x, y + 1)) wall(x + 1, y + 1, x, y + 1);
+      if (!solid(x - 1, y)) wall(x, y + 1, x, y);
+    }
+  return m;
+}
+
+TEST(FillHoles, RimsWithinAnotherAreOneHoleWithIslands) {
+  // Each rim closed by a face of its own would give the same volume, and walls without thickness across the bores.
+  for (const std::vector<int>& bores : {std::vector<int>{}, {1}, {1, 3}, {1, 3, 5}}) {
+    Mesh m = plate_without_floor(7, bores);
+    const double cells = 21 - static_cast<double>(bores.size()), sides = 20 + 4 * static_cast<double>(bores.size());
+    const auto holes = fill_holes(m, {0.6});
+    ASSERT_EQ(holes.size(), 1u);
+    EXPECT_TRUE(holes[0].filled) << holes[0].why_not;
+    EXPECT_NEAR(holes[0].area, cells, 1e-12);
+    EXPECT_TRUE(edge_use(m).closed());
+    EXPECT_NEAR(signed_volume(m), cells, 1e-12);
+    EXPECT_NEAR(surface_area(m), 2 * cells + sides, 1e-12);
+  }
+}
+
+TEST(FillHoles, RimsOfDifferentSurfacesAreClosedByThemselves) {
+  Mesh m = plate_without_floor(7, {});
+  append(m, moved(plate_without_floor(3, {}), Pose{{5, 1, 0}, Eigen::Quaterniond(0, 0, 1, 0)}));
+  EXPECT_EQ(fill_holes(m, {0.6}).size(), 2u);
+  EXPECT_TRUE(edge_use(m).closed());
+}
+
+TEST(FillHoles, LargeHolesStayOpen) {
+  Mesh m = box({0, 0, 0}, {1, 1, 1});
+  m.triangles.resize(10);
+  const auto holes = fill_holes(m, {});
+  ASSERT_EQ(holes.size(), 1u);
+  EXPECT_FALSE(holes[0].filled);
+  EXPECT_NE(holes[0].why_not.find("larger than"), std::string::npos);
+  EXPECT_EQ(edge_use(m).open, 4u);
+}
+
+}  // namespace
+}  // namespace dismantle
