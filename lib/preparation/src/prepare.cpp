@@ -9,16 +9,13 @@
 #include <utility>
 
 #include "assembly_steps.h"
-#include "dismantle/computed_once.h"
 #include "dismantle/errors.h"
 #include "dismantle/geometry/length_unit.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/mesh_subdivide.h"
 #include "dismantle/preparation/flexible_parts.h"
 #include "dismantle/preparation/read_input.h"
-#include "dismantle/verification/contact.h"
-#include "dismantle/verification/interruptible_depth.h"
-#include "dismantle/verification/verifier.h"
+#include "measure_overlaps.h"
 #include "parallel_phase.h"
 #include "repair_part.h"
 
@@ -266,43 +263,11 @@ class Preparation {
   }
 
   void measure_overlaps() {
-    std::vector<InitialOverlap> pairs;
-    std::vector<Aabb> boxes;
-    Aabb whole;
-    for (const auto& part : assembly_.parts) {
-      boxes.push_back(part.mesh->box());
-      whole.extend(boxes.back());
-    }
-    // Depths are exact to a hundred thousandth of the assembly, a hundredth of the usual tolerance of plans. Less than
-    // twice that is rounding: parts touch.
-    const double exact_to = 1e-5 * whole.size().maxCoeff(), recorded = 2 * exact_to;
-    for (PartId a = 0; a < boxes.size(); ++a)
-      for (PartId b = a + 1; b < boxes.size(); ++b)
-        if (boxes[a].overlaps(boxes[b])) pairs.push_back({a, b, 0});
     const auto& parts = assembly_.parts;
-    std::vector<ComputedOnce<DepthBody>> bodies(parts.size());  // prepared once for each part
-    const auto body = [&](PartId part) -> const DepthBody& {
-      return *bodies[part].get(context_, [&] {
-        return std::optional<DepthBody>(std::in_place, *parts[part].mesh,
-                                        [&] { stop_if_asked(context_, "measuring overlaps"); });
-      });
-    };
-    parallel_phase(
-        pairs.size(), context_, "overlaps",
-        [&](std::size_t i) {
-          const DepthBody &a = body(pairs[i].a), &b = body(pairs[i].b);
-          const Penetration deepest = deepest_penetration(a, Pose{}, b, Pose{}, exact_to, context_);
-          if (context_.should_stop()) return;  // only a lower bound; parallel_phase() will throw
-          pairs[i].depth = deepest.depth;
-          if (deepest.depth > recorded) pairs[i].place = classify_overlap(a, b, deepest, exact_to).place;
-        },
-        [&](std::size_t i) { return parts[pairs[i].a].name + " / " + parts[pairs[i].b].name; });
+    assembly_.overlaps = dismantle::measure_overlaps(parts, context_);
     const InitialOverlap* deepest = nullptr;
-    for (const auto& pair : pairs) {
-      if (!(pair.depth > recorded)) continue;
-      assembly_.overlaps.push_back(pair);
+    for (const InitialOverlap& pair : assembly_.overlaps)
       if (!deepest || pair.depth > deepest->depth) deepest = &pair;
-    }
     if (deepest)
       report_.warnings.push_back(fmt::format(
           "{} pair{} of parts overlap when assembled, by up to {:.4g} {} ('{}' and '{}')", assembly_.overlaps.size(),
