@@ -10,9 +10,10 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 using lattice::Cell;
 
-// Material that reaches into a cell by less than this share of its edge does not fill it: the curved outside of a
-// piece may bulge a little over its cells.
-constexpr double kInset = 0.1;
+// A cell is full if this share of its edge on each side of its middle is material: two such parts overlap deeply.
+constexpr double kCore = 0.1;
+// A part reaches into a cell if it does so by more than this multiple of the tolerance.
+constexpr double kReach = 2;
 // Parts with more triangles are hardly pieces on a grid.
 constexpr std::size_t kMostTriangles = 20'000;
 
@@ -36,11 +37,21 @@ TranslationSearch::End end_of(lattice::SearchResult::End end) {
 
 }  // namespace
 
-const std::vector<Cell>& LatticeSearch::cells(PartId part) {
+const lattice::PieceCells& LatticeSearch::cells(PartId part) {
   const auto [entry, is_new] = cells_.try_emplace(part);
-  if (is_new)
-    entry->second = lattice::cells_of(*assembly_.parts[part].mesh, *lattice_, Vec3::Constant(kInset), true);
+  if (is_new) {
+    const Mesh& mesh = *assembly_.parts[part].mesh;
+    const Vec3 reach = (kReach * tolerance_ * lattice_->pitch.cwiseInverse()).cwiseMin(kCore);
+    entry->second = {lattice::full_cells_of(mesh, *lattice_, Vec3::Constant(0.5 - kCore)),
+                     lattice::cells_of(mesh, *lattice_, reach, true)};
+  }
   return entry->second;
+}
+
+/// Does a part, translated by `at` relative to another, move on by `by` without running into it?
+bool LatticeSearch::passes(PartId moving, PartId fixed, const Vec3& at, const Vec3& by) const {
+  const auto pose = [](const Vec3& t) { return Pose{t, Eigen::Quaterniond::Identity()}; };
+  return sweep_.passes(moving, fixed, Pose{}, {pose(at), pose(at + by)});
 }
 
 TranslationSearch::Answer LatticeSearch::search(const Places& places, std::size_t most_states, double most_work,
@@ -56,8 +67,9 @@ TranslationSearch::Answer LatticeSearch::search(const Places& places, std::size_
     lattice_ = lattice::lattice_of(meshes, tolerance_);
     if (!lattice_) return answer;
   }
-  std::vector<std::vector<Cell>> parts;
+  std::vector<lattice::PieceCells> parts;
   std::vector<PartId> ids;
+  std::vector<Cell> placed;
   const Vec3 first = places.begin()->second;
   for (const auto& [part, at] : places) {
     const Vec3 steps = (lattice_->axes * (at - first)).cwiseQuotient(lattice_->pitch);
@@ -65,11 +77,22 @@ TranslationSearch::Answer LatticeSearch::search(const Places& places, std::size_
     if (((steps - whole).cwiseProduct(lattice_->pitch)).cwiseAbs().maxCoeff() > tolerance_) return answer;
     parts.push_back(cells(part));
     ids.push_back(part);
-    for (Cell& c : parts.back())
-      for (std::size_t k = 0; k < 3; ++k) c[k] += static_cast<int>(whole[static_cast<Eigen::Index>(k)]);
+    placed.push_back({});
+    for (std::size_t k = 0; k < 3; ++k) placed.back()[k] = static_cast<int>(whole[static_cast<Eigen::Index>(k)]);
+    for (auto* list : {&parts.back().full, &parts.back().touched})
+      for (Cell& c : *list)
+        for (std::size_t k = 0; k < 3; ++k) c[k] += placed.back()[k];
   }
-  const lattice::SearchResult found =
-      lattice::search_arrangements(parts, {most_states, most_work, [&] { return context.should_stop(); }});
+  asked_ = 0;
+  const auto passes_step = [&](std::size_t i, std::size_t j, const Cell& shift, int axis) {
+    ++asked_;
+    Vec3 steps;
+    for (std::size_t k = 0; k < 3; ++k)
+      steps[static_cast<Eigen::Index>(k)] = shift[k] + placed[i][k] - placed[j][k];
+    return passes(ids[i], ids[j], lattice_->translation(steps), lattice_->translation(Vec3::Unit(axis)));
+  };
+  const lattice::SearchResult found = lattice::search_arrangements(
+      parts, passes_step, {most_states, most_work, [&] { return context.should_stop(); }});
   answer.end = end_of(found.end);
   answer.states = found.visited;
   answer.waiting = found.waiting;
@@ -89,11 +112,12 @@ TranslationSearch::Answer LatticeSearch::search(const Places& places, std::size_
 std::string LatticeSearch::summary(const TranslationSearch::Answer& answer) const {
   if (!lattice_) return "arrangements on a grid: the parts do not lie on one";
   std::string cells;
-  for (const auto& [part, own] : cells_) cells += " " + std::to_string(own.size());
+  for (const auto& [part, own] : cells_)
+    cells += " " + std::to_string(own.full.size()) + "/" + std::to_string(own.touched.size());
   return "arrangements on a grid: pitch " + std::to_string(lattice_->pitch.x()) + " " +
          std::to_string(lattice_->pitch.y()) + " " + std::to_string(lattice_->pitch.z()) + ", cells" + cells + "; " +
          (answer.end == TranslationSearch::End::unsuited ? "two parts share a cell, or one is off the grid" : "") +
-         std::to_string(answer.states) + " visited, " + std::to_string(answer.waiting) + " waiting, " +
+         std::to_string(answer.states) + " visited, " + std::to_string(asked_) + " steps of pairs examined, " + std::to_string(answer.waiting) + " waiting, " +
          std::to_string(answer.translations.size()) + " translations";
 }
 

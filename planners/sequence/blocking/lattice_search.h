@@ -6,16 +6,18 @@
 #include <vector>
 
 #include "blocking/translation_search.h"
+#include "blocking_graph/pair_sweep.h"
 #include "dismantle/lattice/arrangements.h"
 
 namespace dismantle::blocking {
 
-/// Every rigid group may slide along the axes of the grid, by any number of cells. A part fills the cells that its
-/// surface touches, so the verifier may accept more than this search finds, and hardly ever refuses what it finds.
+/// Every rigid group may slide along the axes of the grid, by any number of cells. Two parts are never in the same full
+/// cell. Where they share cells that a curved outside or a chamfer cuts through, their surfaces decide.
 class LatticeSearch {
  public:
-  /// `tolerance`: of the verifier, assembly units. `assembly` must outlive this.
-  LatticeSearch(const Assembly& assembly, double tolerance) : assembly_(assembly), tolerance_(tolerance) {}
+  /// Both must outlive this.
+  LatticeSearch(const Assembly& assembly, const PairSweep& sweep)
+      : assembly_(assembly), sweep_(sweep), tolerance_(sweep.tolerance()) {}
 
   /// Visits up to `most_states` arrangements; `most_work` is a number of arrangements looked up. The answer has the
   /// fewest translations until parts leave. `unsuited`: the parts, as placed, do not lie on a grid.
@@ -26,12 +28,15 @@ class LatticeSearch {
   std::string summary(const TranslationSearch::Answer& answer) const;
 
  private:
-  const std::vector<lattice::Cell>& cells(PartId part);
+  const lattice::PieceCells& cells(PartId part);
+  bool passes(PartId moving, PartId fixed, const Eigen::Vector3d& at, const Eigen::Vector3d& by) const;
 
   const Assembly& assembly_;
-  double tolerance_;
+  const PairSweep& sweep_;
+  double tolerance_;  ///< of the verifier; assembly units
   std::optional<lattice::Lattice> lattice_;  ///< of the first group that has one
-  std::map<PartId, std::vector<lattice::Cell>> cells_;
+  std::map<PartId, lattice::PieceCells> cells_;
+  std::size_t asked_ = 0;  ///< pairs of surfaces, in the last search
 };
 
 }  // namespace dismantle::blocking

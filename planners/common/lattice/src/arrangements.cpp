@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <unordered_set>
 #include <utility>
 
@@ -12,38 +14,53 @@ namespace {
 
 constexpr int kForEver = std::numeric_limits<int>::max();
 constexpr std::size_t kMostUnions = 256;
+constexpr double kWorkOfQuestion = 1'000;  // a question about two surfaces takes as long as so many looks at cells
 
-/// The shifts of one part relative to another at which they have a cell in common.
+/// The shifts of one part relative to another at which they share full cells, or cells that both reach into.
 class Overlaps {
  public:
-  Overlaps(const std::vector<Cell>& moving, const std::vector<Cell>& fixed) {
+  Overlaps(const PieceCells& a, const PieceCells& b) {
+    const std::vector<Cell>&moving = a.touched, &fixed = b.touched;
     Cell hi{};
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto by = [k](const Cell& a, const Cell& b) { return a[k] < b[k]; };
+      const auto by = [k](const Cell& p, const Cell& q) { return p[k] < q[k]; };
       const auto [m0, m1] = std::minmax_element(moving.begin(), moving.end(), by);
       const auto [f0, f1] = std::minmax_element(fixed.begin(), fixed.end(), by);
       lo_[k] = (*f0)[k] - (*m1)[k];
       hi[k] = (*f1)[k] - (*m0)[k];
       size_[k] = hi[k] - lo_[k] + 1;
     }
-    bits_.assign(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
-                     static_cast<std::size_t>(size_[2]),
-                 false);
-    for (const Cell& m : moving)
-      for (const Cell& f : fixed) bits_[index({f[0] - m[0], f[1] - m[1], f[2] - m[2]})] = true;
+    const std::size_t count = static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
+                              static_cast<std::size_t>(size_[2]);
+    const auto mark = [&](std::vector<bool>& bits, const std::vector<Cell>& of, const std::vector<Cell>& other) {
+      bits.assign(count, false);
+      for (const Cell& m : of)
+        for (const Cell& f : other) bits[index({f[0] - m[0], f[1] - m[1], f[2] - m[2]})] = true;
+    };
+    mark(bits_, a.full, b.full);
+    if (a.full != a.touched || b.full != b.touched) mark(near_, a.touched, b.touched);
   }
 
   bool at(const Cell& shift) const { return within(shift) && bits_[index(shift)]; }
+  bool near(const Cell& shift) const { return !near_.empty() && within(shift) && near_[index(shift)]; }
 
-  /// The number of steps along an axis that are free from here; kForEver if all are.
-  int free_steps(Cell shift, std::size_t axis, double& work) const {
+  /// The number of steps along an axis that are free from here; kForEver if all are. `passes(shift)` is asked about
+  /// steps between shifts where only cells that are not full are shared.
+  template <class Passes>
+  int free_steps(Cell shift, std::size_t axis, double& work, const Passes& passes) const {
     for (std::size_t k = 0; k < 3; ++k)
       if (k != axis && (shift[k] < lo_[k] || shift[k] >= lo_[k] + size_[k])) return kForEver;
     const int from = shift[axis];
     for (shift[axis] = std::max(from + 1, lo_[axis]); shift[axis] < lo_[axis] + size_[axis]; ++shift[axis]) {
       ++work;
       if (bits_[index(shift)]) return shift[axis] - from - 1;
+      if (near_.empty()) continue;
+      Cell before = shift;
+      --before[axis];
+      if ((near(before) || near(shift)) && !passes(before)) return before[axis] - from;
     }
+    // The last step away.
+    if (Cell before = shift; --before[axis] >= from && near(before) && !passes(before)) return before[axis] - from;
     return kForEver;
   }
 
@@ -62,12 +79,13 @@ class Overlaps {
 
   Cell lo_{}, size_{};
   std::vector<bool> bits_;
+  std::vector<bool> near_;  // empty: as bits_
 };
 
 class Search {
  public:
-  Search(const std::vector<std::vector<Cell>>& parts, const SearchLimits& limits)
-      : limits_(limits), count_(parts.size()), everyone_(~PartBits{0} >> (kMostParts - count_)) {
+  Search(const std::vector<PieceCells>& parts, const StepTest& passes, const SearchLimits& limits)
+      : limits_(limits), passes_(passes), count_(parts.size()), everyone_(~PartBits{0} >> (kMostParts - count_)) {
     for (const auto& a : parts)
       for (const auto& b : parts) overlaps_.emplace_back(a, b);
     free_.resize(count_ * count_);
@@ -140,7 +158,21 @@ class Search {
         free_[i * count_ + j] =
             i == j ? kForEver
                    : overlaps_[i * count_ + j].free_steps(
-                         {at[i][0] - at[j][0], at[i][1] - at[j][1], at[i][2] - at[j][2]}, axis, work_);
+                         {at[i][0] - at[j][0], at[i][1] - at[j][1], at[i][2] - at[j][2]}, axis, work_,
+                         [&](const Cell& from) { return passes(i, j, from, axis); });
+  }
+
+  /// One step of part i along the axis, past part j; a step of j back is the same.
+  bool passes(std::size_t i, std::size_t j, Cell shift, std::size_t axis) {
+    if (i > j) {
+      std::swap(i, j);
+      for (int& s : shift) s = -s;
+      --shift[axis];
+    }
+    const auto [known, is_new] = asked_.try_emplace({i * count_ + j, shift, axis}, false);
+    if (!is_new) return known->second;
+    work_ += kWorkOfQuestion;
+    return known->second = passes_(i, j, shift, static_cast<int>(axis));
   }
 
   /// All parts that move when a part moves by `steps`, since it runs into them; backwards: along the other way.
@@ -215,6 +247,8 @@ class Search {
   }
 
   const SearchLimits& limits_;
+  const StepTest& passes_;
+  std::map<std::tuple<std::size_t, Cell, std::size_t>, bool> asked_;  // by pair, shift and axis
   const std::size_t count_;
   const PartBits everyone_;
   std::vector<Overlaps> overlaps_;  // by ordered pair
@@ -248,14 +282,21 @@ class Search {
 
 }  // namespace
 
-SearchResult search_arrangements(const std::vector<std::vector<Cell>>& parts, const SearchLimits& limits,
-                                 bool list_arrangements) {
+SearchResult search_arrangements(const std::vector<PieceCells>& parts, const StepTest& passes,
+                                 const SearchLimits& limits, bool list_arrangements) {
   if (parts.size() < 2 || parts.size() > kMostParts ||
-      std::any_of(parts.begin(), parts.end(), [](const auto& cells) { return cells.empty(); }))
+      std::any_of(parts.begin(), parts.end(), [](const PieceCells& p) { return p.touched.empty(); }))
     return {};
-  Search search(parts, limits);
+  Search search(parts, passes, limits);
   if (!search.begins_apart()) return {};
   return search.run(list_arrangements);
+}
+
+SearchResult search_arrangements(const std::vector<std::vector<Cell>>& parts, const SearchLimits& limits,
+                                 bool list_arrangements) {
+  std::vector<PieceCells> pieces;
+  for (const std::vector<Cell>& cells : parts) pieces.push_back({cells, cells});
+  return search_arrangements(pieces, {}, limits, list_arrangements);
 }
 
 }  // namespace dismantle::lattice

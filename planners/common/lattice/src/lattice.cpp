@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/numerics.h"
@@ -12,6 +13,9 @@ namespace dismantle::lattice {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
+
+// How far a curved outside may reach over the outermost plane with faces, in cells.
+constexpr double kOutside = 1.5;
 
 struct Face {
   Vec3 area;  // outward normal times area
@@ -103,16 +107,20 @@ std::pair<double, double> best_base(const Planes& planes, double pitch, double s
   return best;
 }
 
-/// Planes of the grid, of `count` + 1, in which there are faces.
-std::size_t used_planes(const Planes& up, const Planes& down, double base, double pitch, int count, double same) {
-  std::vector<bool> used(static_cast<std::size_t>(count) + 1, false);
+/// Do most planes of the grid have faces? Few planes fit some fine grid by chance. A curved outside has none, so planes
+/// are expected up to kOutside cells from both ends.
+bool has_faces(const Planes& up, const Planes& down, double base, double pitch, double lo, double hi,
+               double same) {
+  std::set<long> used;
   for (const Planes* planes : {&up, &down})
     for (const auto& [offset, area] : planes->at) {
       const double steps = (offset - base) / pitch, whole = std::round(steps);
-      if (std::abs(steps - whole) * pitch < same && whole >= 0 && whole <= count)
-        used[static_cast<std::size_t>(whole)] = true;
+      if (std::abs(steps - whole) * pitch < same) used.insert(std::lround(whole));
     }
-  return static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
+  if (used.empty()) return false;
+  const long first = *used.begin(), last = *used.rbegin();
+  return 2 * static_cast<long>(used.size()) > last - first + 1 && static_cast<double>(first) - (lo - base) / pitch < kOutside &&
+         (hi - base) / pitch - static_cast<double>(last) < kOutside;
 }
 
 struct Grid {
@@ -162,11 +170,8 @@ std::optional<Grid> grid_along(const std::vector<Face>& faces, const Vec3& axis,
   std::erase_if(grids, [&](const Grid& g) { return g.pitch < coarsest - 2 * same; });
   Grid best =
       *std::max_element(grids.begin(), grids.end(), [](const Grid& a, const Grid& b) { return a.reach < b.reach; });
-  // Cell 0 is at the lower end. Few planes fit some fine grid by chance: most planes of a real one have faces.
-  best.origin += std::floor((lo - best.origin) / best.pitch + 0.25) * best.pitch;
-  const int cells = static_cast<int>(std::ceil((hi - best.origin) / best.pitch - 0.25));
-  const std::size_t used = used_planes(up, down, best.origin, best.pitch, cells, best.play + same);
-  if (2 * used <= static_cast<std::size_t>(cells) + 1) return std::nullopt;
+  best.origin += std::floor((lo - best.origin) / best.pitch + 0.25) * best.pitch;  // cell 0 is at the lower end
+  if (!has_faces(up, down, best.origin, best.pitch, lo, hi, best.play + same)) return std::nullopt;
   return best;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 #include "dismantle/testing/voxels.h"
 
@@ -61,6 +62,37 @@ TEST(Arrangements, AreThoseOfASolverThatTriesEverything) {
   }
   EXPECT_GT(held, 20);
   EXPECT_GT(several, 20);
+}
+
+TEST(Arrangements, AreTheSameIfAskedAboutCellsThatAreNotFull) {
+  Rng rng(22);
+  std::size_t questions = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    const auto pieces = voxels::random_pieces(rng, {3, 3, 3}, 2 + rng.below(3));
+    std::vector<PieceCells> some(pieces.size());
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      some[i].touched = pieces[i];
+      for (const Cell& c : pieces[i])
+        if (rng.below(2) == 0) some[i].full.push_back(c);
+    }
+    const auto together = [&](std::size_t i, std::size_t j, const Cell& shift) {
+      return std::any_of(pieces[i].begin(), pieces[i].end(), [&](Cell c) {
+        for (std::size_t k = 0; k < 3; ++k) c[k] += shift[k];
+        return std::find(pieces[j].begin(), pieces[j].end(), c) != pieces[j].end();
+      });
+    };
+    std::set<std::tuple<std::size_t, std::size_t, Cell, int>> asked;
+    const StepTest passes = [&](std::size_t i, std::size_t j, const Cell& shift, int axis) {
+      EXPECT_TRUE(asked.insert({i, j, shift, axis}).second) << "asked twice";
+      return !together(i, j, shift) && !together(i, j, voxels::moved(shift, axis, 1));
+    };
+    const SearchResult all = search_arrangements(pieces, {}, true), same = search_arrangements(some, passes, {}, true);
+    EXPECT_EQ(same.end, all.end);
+    EXPECT_EQ(same.slides.size(), all.slides.size());
+    EXPECT_EQ(same.arrangements, all.arrangements);
+    questions += asked.size();
+  }
+  EXPECT_GT(questions, 100u);
 }
 
 TEST(Arrangements, LimitsSayWhatWaits) {

@@ -17,14 +17,14 @@ constexpr double kShareOfProof = 0.5;
 
 }  // namespace
 
-PartialTranslation::PartialTranslation(DisassemblyState& state, PathOracle& oracle, StraightMotion* straight,
-                                       const PartialTranslationParams& params)
+PartialTranslation::PartialTranslation(DisassemblyState& state, PathOracle& oracle, const PairSweep& sweep,
+                                       StraightMotion* straight, const PartialTranslationParams& params)
     : state_(state),
       oracle_(oracle),
       straight_(straight),
       params_(params),
       translations_(state.assembly(), oracle.tolerance(), params),
-      on_grid_(state.assembly(), oracle.tolerance()) {}
+      on_grid_(state.assembly(), sweep) {}
 
 /// A pair that does not lie on a grid is left to the path planner, which returns one path instead of many steps.
 Result PartialTranslation::apply(GroupState& group) {

@@ -14,7 +14,7 @@ namespace dismantle::blocking {
 class PartialTranslation final : public Strategy {
  public:
   /// `straight`: null when straight removals are switched off; then only translations within the group are made.
-  PartialTranslation(DisassemblyState& state, PathOracle& oracle, StraightMotion* straight,
+  PartialTranslation(DisassemblyState& state, PathOracle& oracle, const PairSweep& sweep, StraightMotion* straight,
                      const PartialTranslationParams& params);
   std::string_view name() const noexcept override { return "partial_translation"; }
   Cost cost() const noexcept override { return Cost::arrangements; }

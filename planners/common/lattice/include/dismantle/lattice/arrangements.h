@@ -14,6 +14,15 @@ namespace dismantle::lattice {
 using PartBits = std::uint64_t;  ///< a set of parts, by their index
 inline constexpr std::size_t kMostParts = std::numeric_limits<PartBits>::digits;
 
+/// The cells of one part, ascending.
+struct PieceCells {
+  std::vector<Cell> full;     ///< two parts never are in the same one
+  std::vector<Cell> touched;  ///< these, and others that the part reaches into: curved outsides, chamfers
+};
+
+/// May part `moving`, shifted by `shift` cells relative to part `fixed`, move one cell on along the axis?
+using StepTest = std::function<bool(std::size_t moving, std::size_t fixed, const Cell& shift, int axis)>;
+
 /// One straight slide of a rigid group of parts.
 struct Slide {
   PartBits parts = 0;
@@ -47,5 +56,10 @@ struct SearchResult {
 /// `unsuited`: more than kMostParts parts, or two parts have a cell in common.
 SearchResult search_arrangements(const std::vector<std::vector<Cell>>& parts, const SearchLimits& limits,
                                  bool list_arrangements = false);
+
+/// The same for parts that fill some cells in part. `passes` decides about steps where two parts share cells, but no
+/// full ones; it is asked once for each pair, shift and axis.
+SearchResult search_arrangements(const std::vector<PieceCells>& parts, const StepTest& passes,
+                                 const SearchLimits& limits, bool list_arrangements = false);
 
 }  // namespace dismantle::lattice
