@@ -1,9 +1,13 @@
 /// Parts on a common grid that no translations take apart.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "dismantle/immobility_prover.h"
+#include "dismantle/lattice/arrangements.h"
 #include "dismantle/parameters.h"
 
 namespace dismantle::immobility {
@@ -25,6 +29,15 @@ class Translations final : public ImmobilityProver {
   std::optional<Certificate> prove(const SeparationQuery& query, const RunContext& context) const override;
 
  private:
+  struct Proof {
+    Eigen::Vector3d inset = Eigen::Vector3d::Zero();
+    std::vector<std::vector<lattice::Cell>> cells;
+    bool whole = false;  ///< no cell is cut: a finer grid has no more material
+    lattice::SearchResult all;
+  };
+  Proof search(const std::vector<const Mesh*>& meshes, const lattice::Lattice& grid, double deep,
+               const RunContext& context) const;
+
   TranslationsParams params_;
 };
 

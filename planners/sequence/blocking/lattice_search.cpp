@@ -87,12 +87,11 @@ TranslationSearch::Answer LatticeSearch::search(const Places& places, std::size_
   const auto passes_step = [&](std::size_t i, std::size_t j, const Cell& shift, int axis) {
     ++asked_;
     Vec3 steps;
-    for (std::size_t k = 0; k < 3; ++k)
-      steps[static_cast<Eigen::Index>(k)] = shift[k] + placed[i][k] - placed[j][k];
+    for (std::size_t k = 0; k < 3; ++k) steps[static_cast<Eigen::Index>(k)] = shift[k] + placed[i][k] - placed[j][k];
     return passes(ids[i], ids[j], lattice_->translation(steps), lattice_->translation(Vec3::Unit(axis)));
   };
-  const lattice::SearchResult found = lattice::search_arrangements(
-      parts, passes_step, {most_states, most_work, [&] { return context.should_stop(); }});
+  const lattice::SearchResult found =
+      lattice::search_arrangements(parts, passes_step, {most_states, most_work, [&] { return context.should_stop(); }});
   answer.end = end_of(found.end);
   answer.states = found.visited;
   answer.waiting = found.waiting;
@@ -117,8 +116,8 @@ std::string LatticeSearch::summary(const TranslationSearch::Answer& answer) cons
   return "arrangements on a grid: pitch " + std::to_string(lattice_->pitch.x()) + " " +
          std::to_string(lattice_->pitch.y()) + " " + std::to_string(lattice_->pitch.z()) + ", cells" + cells + "; " +
          (answer.end == TranslationSearch::End::unsuited ? "two parts share a cell, or one is off the grid" : "") +
-         std::to_string(answer.states) + " visited, " + std::to_string(asked_) + " steps of pairs examined, " + std::to_string(answer.waiting) + " waiting, " +
-         std::to_string(answer.translations.size()) + " translations";
+         std::to_string(answer.states) + " visited, " + std::to_string(asked_) + " steps of pairs examined, " +
+         std::to_string(answer.waiting) + " waiting, " + std::to_string(answer.translations.size()) + " translations";
 }
 
 }  // namespace dismantle::blocking

@@ -33,7 +33,7 @@ class LatticeSearch {
 
   const Assembly& assembly_;
   const PairSweep& sweep_;
-  double tolerance_;  ///< of the verifier; assembly units
+  double tolerance_;                         ///< of the verifier; assembly units
   std::optional<lattice::Lattice> lattice_;  ///< of the first group that has one
   std::map<PartId, lattice::PieceCells> cells_;
   std::size_t asked_ = 0;  ///< pairs of surfaces, in the last search

@@ -30,8 +30,8 @@ class Overlaps {
       hi[k] = (*f1)[k] - (*m0)[k];
       size_[k] = hi[k] - lo_[k] + 1;
     }
-    const std::size_t count = static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
-                              static_cast<std::size_t>(size_[2]);
+    const std::size_t count =
+        static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) * static_cast<std::size_t>(size_[2]);
     const auto mark = [&](std::vector<bool>& bits, const std::vector<Cell>& of, const std::vector<Cell>& other) {
       bits.assign(count, false);
       for (const Cell& m : of)
@@ -155,11 +155,10 @@ class Search {
   void measure(const std::vector<Cell>& at, std::size_t axis) {
     for (std::size_t i = 0; i < count_; ++i)
       for (std::size_t j = 0; j < count_; ++j)
-        free_[i * count_ + j] =
-            i == j ? kForEver
-                   : overlaps_[i * count_ + j].free_steps(
-                         {at[i][0] - at[j][0], at[i][1] - at[j][1], at[i][2] - at[j][2]}, axis, work_,
-                         [&](const Cell& from) { return passes(i, j, from, axis); });
+        free_[i * count_ + j] = i == j ? kForEver
+                                       : overlaps_[i * count_ + j].free_steps(
+                                             {at[i][0] - at[j][0], at[i][1] - at[j][1], at[i][2] - at[j][2]}, axis,
+                                             work_, [&](const Cell& from) { return passes(i, j, from, axis); });
   }
 
   /// One step of part i along the axis, past part j; a step of j back is the same.
@@ -251,9 +250,9 @@ class Search {
   std::map<std::tuple<std::size_t, Cell, std::size_t>, bool> asked_;  // by pair, shift and axis
   const std::size_t count_;
   const PartBits everyone_;
-  std::vector<Overlaps> overlaps_;  // by ordered pair
-  std::vector<int> free_;           // by ordered pair, along the axis measured last
-  std::vector<Step> steps_;         // by arrangement: how it was reached
+  std::vector<Overlaps> overlaps_;    // by ordered pair
+  std::vector<int> free_;             // by ordered pair, along the axis measured last
+  std::vector<Step> steps_;           // by arrangement: how it was reached
   std::vector<std::int16_t> places_;  // by arrangement: shifts of all parts but the first, relative to it
   double work_ = 0;
 

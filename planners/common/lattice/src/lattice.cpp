@@ -26,8 +26,8 @@ std::vector<Face> faces_of(const std::vector<const Mesh*>& meshes) {
   std::vector<Face> faces;
   for (const Mesh* mesh : meshes)
     for (std::size_t t = 0; t < mesh->triangles.size(); ++t)
-      faces.push_back({0.5 * geometry::area_vector(*mesh, t),
-                       (mesh->vertex(t, 0) + mesh->vertex(t, 1) + mesh->vertex(t, 2)) / 3});
+      faces.push_back(
+          {0.5 * geometry::area_vector(*mesh, t), (mesh->vertex(t, 0) + mesh->vertex(t, 1) + mesh->vertex(t, 2)) / 3});
   return faces;
 }
 
@@ -85,7 +85,8 @@ Planes planes_of(const std::vector<Face>& faces, const Vec3& normal, double same
     else
       planes.at.emplace_back(offset, area);
   }
-  std::stable_sort(planes.at.begin(), planes.at.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::stable_sort(planes.at.begin(), planes.at.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
   return planes;
 }
 
@@ -109,8 +110,7 @@ std::pair<double, double> best_base(const Planes& planes, double pitch, double s
 
 /// Do most planes of the grid have faces? Few planes fit some fine grid by chance. A curved outside has none, so planes
 /// are expected up to kOutside cells from both ends.
-bool has_faces(const Planes& up, const Planes& down, double base, double pitch, double lo, double hi,
-               double same) {
+bool has_faces(const Planes& up, const Planes& down, double base, double pitch, double lo, double hi, double same) {
   std::set<long> used;
   for (const Planes* planes : {&up, &down})
     for (const auto& [offset, area] : planes->at) {
@@ -119,7 +119,8 @@ bool has_faces(const Planes& up, const Planes& down, double base, double pitch, 
     }
   if (used.empty()) return false;
   const long first = *used.begin(), last = *used.rbegin();
-  return 2 * static_cast<long>(used.size()) > last - first + 1 && static_cast<double>(first) - (lo - base) / pitch < kOutside &&
+  return 2 * static_cast<long>(used.size()) > last - first + 1 &&
+         static_cast<double>(first) - (lo - base) / pitch < kOutside &&
          (hi - base) / pitch - static_cast<double>(last) < kOutside;
 }
 
@@ -142,7 +143,7 @@ std::optional<Grid> grid_along(const std::vector<Face>& faces, const Vec3& axis,
   if (up.at.empty() || down.at.empty()) return std::nullopt;
   std::vector<Grid> grids;
   const auto consider = [&](double pitch, double reach) {
-    if (extent / pitch > kMostCells) return;
+    if (!(extent / pitch <= kMostCells)) return;
     const auto [top, top_area] = best_base(up, pitch, same);
     const auto [bottom, bottom_area] = best_base(down, pitch, same);
     const double steps = std::round((bottom - top) / pitch), play = 0.5 * (bottom - top - steps * pitch);
@@ -170,6 +171,15 @@ std::optional<Grid> grid_along(const std::vector<Face>& faces, const Vec3& axis,
   std::erase_if(grids, [&](const Grid& g) { return g.pitch < coarsest - 2 * same; });
   Grid best =
       *std::max_element(grids.begin(), grids.end(), [](const Grid& a, const Grid& b) { return a.reach < b.reach; });
+  // A small face between two planes of this grid counts, too: the pitch is divided if most of the rest then fits.
+  for (int k = 2; k <= 16; ++k) {
+    const double rest = up.area + down.area - best.area;
+    grids.clear();
+    consider(best.pitch / k, best.reach);
+    if (grids.empty() || grids.front().area - best.area <= 0.5 * rest + 1e-9 * (up.area + down.area)) continue;
+    best = grids.front();
+    break;
+  }
   best.origin += std::floor((lo - best.origin) / best.pitch + 0.25) * best.pitch;  // cell 0 is at the lower end
   if (!has_faces(up, down, best.origin, best.pitch, lo, hi, best.play + same)) return std::nullopt;
   return best;

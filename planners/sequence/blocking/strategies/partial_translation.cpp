@@ -174,8 +174,8 @@ bool PartialTranslation::translate(GroupState& group, const Subassemblies& ids, 
     path[1].push_back({p.pose.t + by, p.pose.q});
   }
   answer = &oracle_.propose(attempt, path, state_.context());
-  state_.context().log(LogLevel::debug, "translation of " + std::to_string(ids.size()) + " parts: " +
-                                            std::string(to_string(answer->result.outcome())) + " " +
+  state_.context().log(LogLevel::debug, "translation of " + std::to_string(ids.size()) +
+                                            " parts: " + std::string(to_string(answer->result.outcome())) + " " +
                                             answer->result.message);
   if (!is_success(answer->result.outcome())) return false;
   state_.commit(group, ids, attempt, *answer, GroupChange::Kind::translated);

@@ -26,7 +26,7 @@ class PartialTranslation final : public Strategy {
   struct Progress {
     bool done = false;
     bool off_grid = false;  ///< the search on a grid does not suit the group, or the verifier refused what it found
-    unsigned depth = 0;  ///< GroupState::search_depth at the last search
+    unsigned depth = 0;     ///< GroupState::search_depth at the last search
     std::string note;
   };
   /// Result of proposing one translation to the oracle.

@@ -26,8 +26,8 @@ using StepTest = std::function<bool(std::size_t moving, std::size_t fixed, const
 /// One straight slide of a rigid group of parts.
 struct Slide {
   PartBits parts = 0;
-  int axis = 0;   ///< of the lattice
-  int steps = 0;  ///< in cells, with sign; 0 with `leaves`
+  int axis = 0;    ///< of the lattice
+  int steps = 0;   ///< in cells, with sign; 0 with `leaves`
   int leaves = 0;  ///< 1 or -1: along or against the axis for ever; 0: they stop after `steps`
 };
 
