@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dismantle/statics/certificates.h"
 #include "springs.h"
 
 namespace dismantle::statics {
@@ -18,14 +19,12 @@ Balance result_of(const Springs& springs, const Eigen::VectorXd& anchor, bool ba
 
 Balance associated(Springs& springs, const std::function<bool()>& stop) {
   Eigen::VectorXd anchor = springs.at();
-  double before = 1e300;
   for (int k = 0; k < 40; ++k) {
     anchor = springs.at();
     if (!springs.minimize(anchor, stop)) break;
-    const double residual = springs.residual(anchor);
-    if (residual < kBalanced) return result_of(springs, anchor, true);
-    if (k > 3 && residual > (1 - 1e-9) * before) break;  // the steps do not change: a direction of falling
-    before = residual;
+    if (springs.residual(anchor) < kBalanced) return result_of(springs, anchor, true);
+    if (check_fall(springs.pile(), springs.motion_of(springs.at() - anchor)).empty()) break;
+    springs.lengthen_steps();
   }
   return result_of(springs, anchor, false);
 }

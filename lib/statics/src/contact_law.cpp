@@ -10,50 +10,62 @@ using Mat3 = Eigen::Matrix3d;
 
 }  // namespace
 
-PointForce bonded_force(const Vec3& moved) { return {-moved, Mat3::Identity(), 0.5 * moved.squaredNorm()}; }
-
-PointForce associated_force(const Vec3& moved, const Vec3& normal, double friction) {
-  const double press = -moved.dot(normal);
-  const Vec3 drag = -moved - press * normal;
-  const double length = drag.norm();
-  if (length <= friction * press) return bonded_force(moved);
-  if (friction * length <= -press) return {Vec3::Zero(), Mat3::Zero(), 0};
-  const double s = (press + friction * length) / (1 + friction * friction);
-  if (friction == 0 || length == 0) return {s * normal, normal * normal.transpose(), 0.5 * s * s};
-  const Vec3 t = drag / length;
-  const Vec3 edge = normal + friction * t;
-  const Mat3 across = Mat3::Identity() - normal * normal.transpose() - t * t.transpose();
-  return {s * edge, edge * edge.transpose() / (1 + friction * friction) + s * friction / length * across,
-          0.5 * s * s * (1 + friction * friction)};
+Vec3 bonded_force(const Vec3& moved, Mat3* resistance) {
+  if (resistance != nullptr) *resistance = Mat3::Identity();
+  return -moved;
 }
 
-PointForce limited_force(const Vec3& moved, const Vec3& normal, double limit) {
+Vec3 associated_force(const Vec3& moved, const Vec3& normal, double friction, Mat3* resistance) {
   const double press = -moved.dot(normal);
   const Vec3 drag = -moved - press * normal;
   const double length = drag.norm();
-  PointForce f{Vec3::Zero(), Mat3::Zero(), 0};
-  if (press > 0) f = {press * normal, normal * normal.transpose(), 0.5 * press * press};
-  const Mat3 plane = Mat3::Identity() - normal * normal.transpose();
-  if (length <= limit) {
-    f.force += drag;
-    f.resistance += plane;
-    f.energy += 0.5 * length * length;
-  } else if (limit > 0) {
-    const Vec3 t = drag / length;
-    f.force += limit * t;
-    f.resistance += limit / length * (plane - t * t.transpose());
-    f.energy += limit * (length - 0.5 * limit);
+  if (press >= 0 && length <= friction * press) return bonded_force(moved, resistance);
+  if (friction * length <= -press) {
+    if (resistance != nullptr) *resistance = Mat3::Zero();
+    return Vec3::Zero();
   }
-  return f;
+  const double s = (press + friction * length) / (1 + friction * friction);
+  if (friction == 0 || length == 0) {
+    if (resistance != nullptr) *resistance = normal * normal.transpose();
+    return s * normal;
+  }
+  const Vec3 t = drag / length, edge = normal + friction * t;
+  if (resistance != nullptr) {
+    const Mat3 across = Mat3::Identity() - normal * normal.transpose() - t * t.transpose();
+    *resistance = edge * edge.transpose() / (1 + friction * friction) + s * friction / length * across;
+  }
+  return s * edge;
 }
 
-PointForce coulomb_force(const Vec3& moved, const Vec3& normal, double friction) {
+Vec3 limited_force(const Vec3& moved, const Vec3& normal, double limit, Mat3* resistance) {
   const double press = -moved.dot(normal);
-  if (press <= 0) return {Vec3::Zero(), Mat3::Zero(), 0};
-  PointForce f = limited_force(moved, normal, friction * press);
   const Vec3 drag = -moved - press * normal;
-  if (drag.norm() > friction * press) f.resistance += friction * drag.normalized() * normal.transpose();
-  return f;
+  const double length = drag.norm();
+  Vec3 force = Vec3::Zero();
+  if (press > 0) force = press * normal;
+  if (resistance != nullptr) *resistance = press > 0 ? Mat3(normal * normal.transpose()) : Mat3(Mat3::Zero());
+  const auto plane = [&] { return Mat3::Identity() - normal * normal.transpose(); };
+  if (length <= limit) {
+    if (resistance != nullptr) *resistance += plane();
+    return force + drag;
+  }
+  if (!(limit > 0)) return force;
+  const Vec3 t = drag / length;
+  if (resistance != nullptr) *resistance += limit / length * (plane() - t * t.transpose());
+  return force + limit * t;
+}
+
+Vec3 coulomb_force(const Vec3& moved, const Vec3& normal, double friction, Mat3* resistance) {
+  const double press = -moved.dot(normal);
+  if (press <= 0) {
+    if (resistance != nullptr) *resistance = Mat3::Zero();
+    return Vec3::Zero();
+  }
+  const Vec3 force = limited_force(moved, normal, friction * press, resistance);
+  const Vec3 drag = -moved - press * normal;
+  if (resistance != nullptr && drag.norm() > friction * press)
+    *resistance += friction * drag.normalized() * normal.transpose();
+  return force;
 }
 
 }  // namespace dismantle::statics

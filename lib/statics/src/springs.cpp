@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
+#include <utility>
 
 namespace dismantle::statics {
 namespace {
@@ -13,21 +15,17 @@ using Mat3 = Eigen::Matrix3d;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Weight of the proximal term against the stiffness of a contact. Small: few programs; large: well-conditioned ones.
-constexpr double kProximal = 1e-4;
+/// Weight of the proximal term against the stiffness of a contact, at first and at least. Small: few programs; large:
+/// well-conditioned ones, and few steps of Newton's method from afar.
+constexpr double kProximal = 1e-4, kProximalLeast = 1e-8;
 /// The same for Coulomb's law itself: only against exact singularity.
 constexpr double kProximalCoupled = 1e-9;
-constexpr int kNewtonSteps = 100, kCoupledSteps = 25;
-
-Mat3 cross_matrix(const Vec3& r) {
-  Mat3 m;
-  m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-  return m;
-}
+constexpr int kNewtonSteps = 100, kCoupledSteps = 25, kLineSteps = 12;
+constexpr double kLineShare = 0.1;  // of the slope at the start: a shorter step is no better for Newton's method
 
 }  // namespace
 
-Springs::Springs(const Pile& pile, FrictionLaw law) : pile_(pile), law_(law), unit_(0) {
+Springs::Springs(const Pile& pile, FrictionLaw law) : pile_(pile), law_(law), unit_(0), proximal_(kProximal) {
   Index size = 0;
   for (const Body& b : pile.bodies) {
     first_.push_back(b.fixed ? -1 : size);
@@ -56,175 +54,242 @@ Springs::Springs(const Pile& pile, FrictionLaw law) : pile_(pile), law_(law), un
   }
   load_ = load_.cwiseProduct(scale_);
   x_ = VectorXd::Zero(size);
+  std::map<std::pair<Index, Index>, std::vector<std::size_t>> touching;  // contacts by pair of bodies
   for (std::size_t k = 0; k < pile.contacts.size(); ++k) {
     const Contact& c = pile.contacts[k];
-    const Index a = first_[c.a], b = first_[c.b];
-    if (a < 0 && b < 0) continue;
-    const double light = a < 0 ? share_[c.b] : b < 0 ? share_[c.a] : std::min(share_[c.a], share_[c.b]);
-    for (const Vec3& at : c.points)
-      points_.push_back({k, a, b, at - pile.bodies[c.a].center, at - pile.bodies[c.b].center, c.normal, light,
-                         c.friction, std::numeric_limits<double>::infinity(), c.bonded});
+    if (first_[c.a] >= 0 || first_[c.b] >= 0) touching[{first_[c.a], first_[c.b]}].push_back(k);
+  }
+  for (const auto& [key, contacts] : touching) {
+    const auto [a, b] = key;
+    // About the centre of a body that can move.
+    const Contact& head = pile.contacts[contacts.front()];
+    const Vec3 &center_a = pile.bodies[head.a].center, &center_b = pile.bodies[head.b].center;
+    const Vec3 origin = a >= 0 ? center_a : center_b;
+    const std::size_t first = points_.size();
+    for (const std::size_t k : contacts) {
+      const Contact& c = pile.contacts[k];
+      const double light = a < 0 ? share_[c.b] : b < 0 ? share_[c.a] : std::min(share_[c.a], share_[c.b]);
+      for (std::size_t i = 0; i < c.points.size(); ++i)
+        points_.push_back({k, i, c.points[i] - origin, c.normal, light, c.friction,
+                           std::numeric_limits<double>::infinity(), c.bonded});
+    }
+    pairs_.push_back({a, b, first, points_.size(), origin - center_a, origin - center_b});
   }
 }
 
-Vec3 Springs::moved(const Point& p, const VectorXd& x) const {
-  Vec3 d = Vec3::Zero();
-  const auto at = [&](Index i, const Vec3& r) -> Vec3 {
-    const Vec3 v = x.segment<3>(i) * scale_[i], w = x.segment<3>(i + 3) * scale_[i + 3];
-    return v + w.cross(r);
-  };
-  if (p.a >= 0) d += at(p.a, p.ra);
-  if (p.b >= 0) d -= at(p.b, p.rb);
-  return d;
-}
-
-PointForce Springs::law_of(const Point& p, const Vec3& d, bool coupled) const {
-  if (p.bonded) return bonded_force(d);
-  if (coupled) return coulomb_force(d, p.normal, p.friction);
-  return law_ == FrictionLaw::associated ? associated_force(d, p.normal, p.friction)
-                                         : limited_force(d, p.normal, p.limit);
-}
-
-double Springs::value(const VectorXd& x, const VectorXd& anchor) const {
-  double sum = 0.5 * kProximal * (x - anchor).squaredNorm() - load_.dot(x);
-  for (const Point& p : points_) sum += p.stiffness * law_of(p, moved(p, x)).energy;
-  return sum;
-}
-
-VectorXd Springs::derivatives(const VectorXd& anchor, bool coupled, Eigen::SparseMatrix<double>& hessian) const {
-  VectorXd gradient = kProximal * (x_ - anchor) - load_;
+void Springs::prepare(Blocks& blocks, bool lower) const {
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(points_.size() * 78 + static_cast<std::size_t>(size()));
-  for (Index i = 0; i < size(); ++i) entries.emplace_back(i, i, coupled ? kProximalCoupled : kProximal);
-  using Block = Eigen::Matrix<double, 6, 6>;
-  std::size_t next = 0;
-  while (next < points_.size()) {
-    // The points of one contact share their blocks. A point p moves by v + w x r; with the cross matrix R of r its
-    // block is [1, -R]' D [1, -R]. The scales of the bodies come in the end.
-    const Point& head = points_[next];
-    Block aa = Block::Zero(), ab = Block::Zero(), ba = Block::Zero(), bb = Block::Zero();
-    bool pressed = false;
-    for (; next < points_.size() && points_[next].contact == head.contact; ++next) {
-      const Point& p = points_[next];
-      const PointForce f = law_of(p, moved(p, x_), coupled);
-      if (f.resistance.isZero(0) && f.force.isZero(0)) continue;
-      pressed = true;
-      const Vec3 force = p.stiffness * f.force;
-      const Mat3 d = p.stiffness * f.resistance;
-      const auto pull = [&](Index i, const Vec3& r, const Vec3& on) {
-        gradient.segment<3>(i) -= on * scale_[i];
-        gradient.segment<3>(i + 3) -= r.cross(on) * scale_[i + 3];
-      };
-      const auto own = [&](Block& m, const Mat3& arm, const Mat3& turned) {  // turned = d arm
-        m.topLeftCorner<3, 3>() += d;
-        m.topRightCorner<3, 3>() -= turned;
-        m.bottomLeftCorner<3, 3>() += arm * d;  // arm' = -arm
-        m.bottomRightCorner<3, 3>() -= arm * turned;
-      };
-      const Mat3 arm_a = cross_matrix(p.ra), arm_b = cross_matrix(p.rb), turned_a = d * arm_a, turned_b = d * arm_b;
-      if (p.a >= 0) {
-        pull(p.a, p.ra, force);
-        own(aa, arm_a, turned_a);
-      }
-      if (p.b >= 0) {
-        pull(p.b, p.rb, -force);
-        own(bb, arm_b, turned_b);
-      }
-      const auto other = [&](Block& m, const Mat3& arm, const Mat3& turned) {
-        m.topLeftCorner<3, 3>() -= d;
-        m.topRightCorner<3, 3>() += turned;
-        m.bottomLeftCorner<3, 3>() -= arm * d;
-        m.bottomRightCorner<3, 3>() += arm * turned;
-      };
-      if (p.a >= 0 && p.b >= 0) {
-        other(ab, arm_a, turned_b);
-        if (coupled) other(ba, arm_b, turned_a);
-      }
+  const auto fill = [&](Index row, Index column) {
+    if (row < 0 || column < 0 || (lower && row < column)) return;
+    for (Index c = 0; c < 6; ++c)
+      for (Index r = lower && row == column ? c : 0; r < 6; ++r) entries.emplace_back(row + r, column + c, 0.0);
+  };
+  for (const Index i : first_) fill(i, i);
+  for (const Pair& p : pairs_) {
+    fill(p.a, p.b);
+    fill(p.b, p.a);
+  }
+  blocks.matrix.resize(size(), size());
+  blocks.matrix.setFromTriplets(entries.begin(), entries.end());
+  const auto places = [&](Index row, Index column) {
+    std::array<int, 6> at{};
+    if (row < 0 || column < 0 || (lower && row < column)) return at;
+    for (Index c = 0; c < 6; ++c) {
+      const Index top = lower && row == column ? row + c : row;
+      const int* begin = blocks.matrix.innerIndexPtr() + blocks.matrix.outerIndexPtr()[column + c];
+      const int* end = blocks.matrix.innerIndexPtr() + blocks.matrix.outerIndexPtr()[column + c + 1];
+      at[static_cast<std::size_t>(c)] =
+          static_cast<int>(std::lower_bound(begin, end, static_cast<int>(top)) - blocks.matrix.innerIndexPtr());
     }
-    // The pattern of the matrix does not depend on what presses.
-    const auto scaled = [&](Index row, Index column, const Block& m) -> Block {
-      return scale_.segment<6>(row).asDiagonal() * m * scale_.segment<6>(column).asDiagonal();
-    };
-    if (head.a >= 0 && pressed) aa = scaled(head.a, head.a, aa);
-    if (head.b >= 0 && pressed) bb = scaled(head.b, head.b, bb);
-    if (head.a >= 0 && head.b >= 0 && pressed) {
-      ab = scaled(head.a, head.b, ab);
-      ba = coupled ? scaled(head.b, head.a, ba) : Block(ab.transpose());
-    }
-    const auto add = [&](Index row, Index column, const Block& m) {
-      for (Index r = 0; r < 6; ++r)
-        for (Index c = 0; c < 6; ++c)
-          if (coupled || row + r >= column + c) entries.emplace_back(row + r, column + c, m(r, c));
-    };
-    if (head.a >= 0) add(head.a, head.a, aa);
-    if (head.b >= 0) add(head.b, head.b, bb);
-    if (head.a >= 0 && head.b >= 0) {
-      if (coupled || head.a > head.b) add(head.a, head.b, ab);
-      if (coupled || head.a < head.b) add(head.b, head.a, ba);
+    return at;
+  };
+  for (const Pair& p : pairs_) {
+    blocks.aa.push_back(places(p.a, p.a));
+    blocks.bb.push_back(places(p.b, p.b));
+    blocks.ab.push_back(places(p.a, p.b));
+    blocks.ba.push_back(places(p.b, p.a));
+  }
+}
+
+Springs::Vec6 Springs::relative(const Pair& pair, const VectorXd& x) const {
+  Vec6 u = Vec6::Zero();
+  const auto add = [&](Index i, const Vec3& arm, double sign) {
+    const Vec3 w = x.segment<3>(i + 3) * (sign * scale_[i + 3]);
+    u.head<3>() += x.segment<3>(i) * (sign * scale_[i]) + w.cross(arm);
+    u.tail<3>() += w;
+  };
+  if (pair.a >= 0) add(pair.a, pair.arm_a, 1);
+  if (pair.b >= 0) add(pair.b, pair.arm_b, -1);
+  return u;
+}
+
+void Springs::add_wrench(const Pair& pair, const Vec6& on_a, VectorXd& forces) const {
+  const auto add = [&](Index i, const Vec3& arm, double sign) {
+    const Vec3 force = sign * on_a.head<3>();
+    forces.segment<3>(i) += scale_[i] * force;
+    forces.segment<3>(i + 3) += scale_[i + 3] * (sign * on_a.tail<3>() + arm.cross(force));
+  };
+  if (pair.a >= 0) add(pair.a, pair.arm_a, 1);
+  if (pair.b >= 0) add(pair.b, pair.arm_b, -1);
+}
+
+Vec3 Springs::law_of(const Point& p, const Vec3& d, bool coupled, Mat3* resistance) const {
+  if (p.bonded) return bonded_force(d, resistance);
+  if (coupled) return coulomb_force(d, p.normal, p.friction, resistance);
+  return law_ == FrictionLaw::associated ? associated_force(d, p.normal, p.friction, resistance)
+                                         : limited_force(d, p.normal, p.limit, resistance);
+}
+
+double Springs::step_length(const VectorXd& anchor, const VectorXd& direction) const {
+  std::vector<Vec3> from, way;
+  each_point(x_, [&](const Pair&, std::size_t, const Vec3& d) { from.push_back(d); });
+  each_point(direction, [&](const Pair&, std::size_t, const Vec3& d) { way.push_back(d); });
+  const double constant = (proximal_ * (x_ - anchor) - load_).dot(direction),
+               linear = proximal_ * direction.squaredNorm();
+  const auto slope = [&](double t) {
+    double sum = constant + t * linear;
+    for (std::size_t k = 0; k < points_.size(); ++k)
+      sum -= points_[k].stiffness * law_of(points_[k], from[k] + t * way[k]).dot(way[k]);
+    return sum;
+  };
+  // The slope increases: a zero is enclosed, and the enclosure made smaller (Illinois).
+  double low = 0, at_low = slope(0), high = 1, at_high = slope(1);
+  const double enough = kLineShare * std::abs(at_low);
+  if (std::abs(at_high) <= enough) return 1;
+  for (int k = 0; k < kLineSteps && at_high < 0; ++k) {
+    low = std::exchange(high, 2 * high);
+    at_low = std::exchange(at_high, slope(high));
+  }
+  double t = high;
+  for (int k = 0, side = 0; k < kLineSteps && at_low < 0 && at_high > 0; ++k) {
+    t = (low * at_high - high * at_low) / (at_high - at_low);
+    const double now = slope(t);
+    if (std::abs(now) <= enough) break;
+    if (now < 0) {
+      if (side < 0) at_high *= 0.5;
+      low = t;
+      at_low = now;
+      side = -1;
+    } else {
+      if (side > 0) at_low *= 0.5;
+      high = t;
+      at_high = now;
+      side = 1;
     }
   }
-  hessian.setFromTriplets(entries.begin(), entries.end());
-  return gradient;
+  return t;
 }
+
+VectorXd Springs::derivatives(const VectorXd& anchor, bool coupled, Blocks& blocks) const {
+  if (blocks.matrix.size() == 0) prepare(blocks, !coupled);
+  VectorXd gradient = proximal_ * (x_ - anchor) - load_, forces = VectorXd::Zero(size());
+  double* values = blocks.matrix.valuePtr();
+  std::fill(values, values + blocks.matrix.nonZeros(), 0.0);
+  for (Index i = 0; i < size(); ++i) blocks.matrix.coeffRef(i, i) = coupled ? kProximalCoupled : proximal_;
+  for (std::size_t n = 0; n < pairs_.size(); ++n) {
+    const Pair& pair = pairs_[n];
+    // A point r moves by v + w x r = [1, -R] (v, w): its block is [1, -R]' D [1, -R]. Rows of D R are cross products.
+    const Vec6 u = relative(pair, x_);
+    Vec6 wrench = Vec6::Zero();
+    Block own = Block::Zero();
+    bool pressed = false;
+    for (std::size_t k = pair.first; k < pair.last; ++k) {
+      const Point& p = points_[k];
+      Mat3 d;
+      const Vec3 force = p.stiffness * law_of(p, moved(p, u), coupled, &d);
+      if (d.isZero(0) && force.isZero(0)) continue;
+      pressed = true;
+      d *= p.stiffness;
+      wrench.head<3>() += force;
+      wrench.tail<3>() += p.at.cross(force);
+      Mat3 turned;  // D R
+      for (Index i = 0; i < 3; ++i) turned.row(i) = d.row(i).cross(p.at.transpose());
+      own.topLeftCorner<3, 3>() += d;
+      own.topRightCorner<3, 3>() -= turned;
+      for (Index i = 0; i < 3; ++i) own.block<3, 1>(3, i) += p.at.cross(d.col(i));
+      for (Index i = 0; i < 3; ++i) own.block<3, 1>(3, 3 + i) -= p.at.cross(turned.col(i));
+    }
+    if (!pressed) continue;
+    add_wrench(pair, wrench, forces);
+    // Columns, then rows, for the coordinates of a body.
+    const auto columns = [&](Index i, const Vec3& arm, const Block& m) {
+      Block r = m;
+      for (Index c = 0; c < 6; ++c) r.block<1, 3>(c, 3) += arm.cross(m.block<1, 3>(c, 0).transpose()).transpose();
+      r.leftCols<3>() *= scale_[i];
+      r.rightCols<3>() *= scale_[i + 3];
+      return r;
+    };
+    const auto rows = [&](Index i, const Vec3& arm, const Block& m) -> Block {
+      return columns(i, arm, m.transpose()).transpose();
+    };
+    const auto add = [&](const std::array<int, 6>& at, const Block& m, bool diagonal, double sign) {
+      for (Index c = 0; c < 6; ++c) {
+        double* column = values + at[static_cast<std::size_t>(c)];
+        for (Index r = diagonal && !coupled ? c : 0; r < 6; ++r) *column++ += sign * m(r, c);
+      }
+    };
+    Block by_a, by_b;
+    if (pair.a >= 0) {
+      by_a = columns(pair.a, pair.arm_a, own);
+      add(blocks.aa[n], rows(pair.a, pair.arm_a, by_a), true, 1);
+    }
+    if (pair.b >= 0) {
+      by_b = columns(pair.b, pair.arm_b, own);
+      add(blocks.bb[n], rows(pair.b, pair.arm_b, by_b), true, 1);
+    }
+    if (pair.a < 0 || pair.b < 0) continue;
+    if (coupled || pair.a > pair.b) add(blocks.ab[n], rows(pair.a, pair.arm_a, by_b), false, -1);
+    if (coupled || pair.a < pair.b) add(blocks.ba[n], rows(pair.b, pair.arm_b, by_a), false, -1);
+  }
+  return gradient - forces;
+}
+
+void Springs::lengthen_steps() { proximal_ = std::max(kProximalLeast, 0.1 * proximal_); }
 
 bool Springs::minimize(const VectorXd& anchor, const std::function<bool()>& stop) {
-  Eigen::SparseMatrix<double> hessian(size(), size());
-  double now = value(x_, anchor), steepest = std::numeric_limits<double>::infinity();
+  double steepest = std::numeric_limits<double>::infinity();
   for (int step = 0; step < kNewtonSteps; ++step) {
     if (stop && stop()) return false;
-    const VectorXd gradient = derivatives(anchor, false, hessian);
+    const VectorXd gradient = derivatives(anchor, false, hessian_);
     const double slope_now = gradient.norm() / load_.norm();
     if (slope_now <= 1e-10 || (slope_now <= 1e-7 && slope_now > 0.5 * steepest)) return true;  // or rounding
     steepest = std::min(steepest, slope_now);
-    if (!analyzed_) factor_.analyzePattern(hessian);
-    analyzed_ = true;
-    factor_.factorize(hessian);
+    if (!std::exchange(hessian_.analyzed, true)) factor_.analyzePattern(hessian_.matrix);
+    factor_.factorize(hessian_.matrix);
     ++factorizations_;
     if (factor_.info() != Eigen::Success) return false;
     const VectorXd direction = -factor_.solve(gradient);
     const double slope = gradient.dot(direction);
     if (!(slope < 0)) return slope_now <= 1e-7;
-    double t = 1;
-    VectorXd trial = x_ + direction;
-    double then = value(trial, anchor);
-    while (then > now + 1e-4 * t * slope && t > 1e-8) {
-      t *= 0.5;
-      trial = x_ + t * direction;
-      then = value(trial, anchor);
-    }
-    if (!(then <= now)) return slope_now <= 1e-7;
-    x_ = trial;
-    now = then;
+    x_ += step_length(anchor, direction) * direction;
   }
   return false;
 }
 
 double Springs::update_limits(double share) {
   double most = 0;
-  for (Point& p : points_) {
-    if (p.bonded) continue;
-    const double limit = p.friction * std::max(0.0, -moved(p, x_).dot(p.normal));
+  each_point(x_, [&](const Pair&, std::size_t k, const Vec3& d) {
+    Point& p = points_[k];
+    if (p.bonded) return;
+    const double limit = p.friction * std::max(0.0, -d.dot(p.normal));
     most = std::max(most, std::isfinite(p.limit) ? p.stiffness * std::abs(limit - p.limit) : 1);
     p.limit = std::isfinite(p.limit) ? p.limit + share * (limit - p.limit) : limit;
-  }
+  });
   return most;
 }
 
 bool Springs::solve_coupled(const std::function<bool()>& stop) {
   const VectorXd start = x_;
-  Eigen::SparseMatrix<double> jacobian(size(), size());
   for (int step = 0; step < kCoupledSteps; ++step) {
     if (stop && stop()) break;
     const VectorXd anchor = x_;
-    const VectorXd rest = derivatives(anchor, true, jacobian);
+    const VectorXd rest = derivatives(anchor, true, jacobian_);
     if (rest.norm() <= 1e-10 * load_.norm()) {
       update_limits();
       return true;
     }
-    jacobian.makeCompressed();
-    if (!analyzed_coupled_) coupled_.analyzePattern(jacobian);
-    analyzed_coupled_ = true;
-    coupled_.factorize(jacobian);
+    if (!std::exchange(jacobian_.analyzed, true)) coupled_.analyzePattern(jacobian_.matrix);
+    coupled_.factorize(jacobian_.matrix);
     ++factorizations_;
     if (coupled_.info() != Eigen::Success) break;
     const VectorXd direction = -coupled_.solve(rest);
@@ -242,22 +307,19 @@ bool Springs::solve_coupled(const std::function<bool()>& stop) {
 }
 
 VectorXd Springs::unbalanced() const {
-  VectorXd rest = -load_;
-  for (const Point& p : points_) {
-    const Vec3 f = p.stiffness * law_of(p, moved(p, x_), true).force;
-    const auto add = [&](Index i, const Vec3& r, const Vec3& force) {
-      rest.segment<3>(i) -= force.cwiseProduct(scale_.segment<3>(i));
-      rest.segment<3>(i + 3) -= r.cross(force).cwiseProduct(scale_.segment<3>(i + 3));
-    };
-    if (p.a >= 0) add(p.a, p.ra, f);
-    if (p.b >= 0) add(p.b, p.rb, -f);
-  }
-  return rest;
+  VectorXd forces = load_;
+  each_point(x_, [&](const Pair& pair, std::size_t k, const Vec3& d) {
+    const Vec3 f = points_[k].stiffness * law_of(points_[k], d, true);
+    Vec6 wrench;
+    wrench << f, points_[k].at.cross(f);
+    add_wrench(pair, wrench, forces);
+  });
+  return -forces;
 }
 
 double Springs::residual(const VectorXd& anchor) const {
   double most = 0;
-  const VectorXd rest = kProximal * (x_ - anchor);
+  const VectorXd rest = proximal_ * (x_ - anchor);
   for (std::size_t i = 0; i < first_.size(); ++i)
     if (first_[i] >= 0) most = std::max(most, rest.segment<6>(first_[i]).norm() / std::sqrt(share_[i]));
   return most;
@@ -274,9 +336,10 @@ Motions Springs::motion_of(const VectorXd& x) const {
 ContactForces Springs::forces() const {
   ContactForces forces;
   for (const Contact& c : pile_.contacts) forces.emplace_back(c.points.size(), Vec3::Zero());
-  std::vector<std::size_t> next(forces.size(), 0);
-  for (const Point& p : points_)
-    forces[p.contact][next[p.contact]++] = unit_ * p.stiffness * law_of(p, moved(p, x_)).force;
+  each_point(x_, [&](const Pair&, std::size_t k, const Vec3& d) {
+    const Point& p = points_[k];
+    forces[p.contact][p.index] = unit_ * p.stiffness * law_of(p, d);
+  });
   return forces;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -20,6 +21,8 @@ class Springs {
 
   /// Minimizes from the current point with the proximal term about `anchor`; false: Newton's method did not converge.
   bool minimize(const Eigen::VectorXd& anchor, const std::function<bool()>& stop);
+  /// A smaller weight of the proximal term from now on.
+  void lengthen_steps();
   /// Coulomb: moves the limits of friction by a share of the way to those of the present pressure; returns the largest
   /// distance, as a share of the whole weight.
   double update_limits(double share = 1);
@@ -27,6 +30,7 @@ class Springs {
   /// nothing changed.
   bool solve_coupled(const std::function<bool()>& stop);
 
+  const Pile& pile() const { return pile_; }
   const Eigen::VectorXd& at() const { return x_; }
   /// Largest unbalanced share of a weight for the step from `anchor`.
   double residual(const Eigen::VectorXd& anchor) const;
@@ -37,28 +41,57 @@ class Springs {
 
  private:
   struct Point {
-    std::size_t contact;
-    Eigen::Index a, b;  // first coordinate, -1: fixed
-    Eigen::Vector3d ra, rb, normal;
+    std::size_t contact, index;  // of the pile, and in the contact
+    Eigen::Vector3d at, normal;  // from the origin of the pair
     double stiffness, friction, limit;
     bool bonded;
   };
-  Eigen::Vector3d moved(const Point& p, const Eigen::VectorXd& x) const;
-  PointForce law_of(const Point& p, const Eigen::Vector3d& moved, bool coupled = false) const;
+  /// Two bodies that touch, at least one of which can move. Its points share blocks of the matrix.
+  struct Pair {
+    Eigen::Index a, b;             // first coordinate, -1: fixed
+    std::size_t first, last;       // points
+    Eigen::Vector3d arm_a, arm_b;  // from the centres to the origin
+  };
+  using Vec6 = Eigen::Matrix<double, 6, 1>;
+  using Block = Eigen::Matrix<double, 6, 6>;
+  /// A matrix whose pattern does not change, with the places of the blocks of each pair in its values.
+  struct Blocks {
+    Eigen::SparseMatrix<double> matrix;
+    std::vector<std::array<int, 6>> aa, bb, ab, ba;  // by pair: where each column starts
+    bool analyzed = false;
+  };
+  void prepare(Blocks& blocks, bool lower) const;
+  /// How a moves against b, about the origin of the pair.
+  Vec6 relative(const Pair& pair, const Eigen::VectorXd& x) const;
+  static Eigen::Vector3d moved(const Point& p, const Vec6& u) { return u.head<3>() + u.tail<3>().cross(p.at); }
+  Eigen::Vector3d law_of(const Point& p, const Eigen::Vector3d& moved, bool coupled = false,
+                         Eigen::Matrix3d* resistance = nullptr) const;
+  /// Adds a force with its torque on a, and the opposite on b, to generalized forces.
+  void add_wrench(const Pair& pair, const Vec6& on_a, Eigen::VectorXd& forces) const;
   /// What Coulomb's law itself leaves unbalanced at the current point.
   Eigen::VectorXd unbalanced() const;
-  double value(const Eigen::VectorXd& x, const Eigen::VectorXd& anchor) const;
+  /// About how far to go along a direction of descent: the slope there is a small share of that at the current point.
+  double step_length(const Eigen::VectorXd& anchor, const Eigen::VectorXd& direction) const;
   /// The gradient, and the Hessian: its lower half, or all of it if `coupled`, which takes Coulomb's law itself.
-  Eigen::VectorXd derivatives(const Eigen::VectorXd& anchor, bool coupled, Eigen::SparseMatrix<double>& hessian) const;
+  Eigen::VectorXd derivatives(const Eigen::VectorXd& anchor, bool coupled, Blocks& blocks) const;
+  template <class Use>
+  void each_point(const Eigen::VectorXd& x, const Use& use) const {
+    for (const Pair& pair : pairs_) {
+      const Vec6 u = relative(pair, x);
+      for (std::size_t k = pair.first; k < pair.last; ++k) use(pair, k, moved(points_[k], u));
+    }
+  }
 
   const Pile& pile_;
   FrictionLaw law_;
-  double unit_;  // weight of everything that can move
+  double unit_;      // weight of everything that can move
+  double proximal_;  // weight of the proximal term
   std::vector<Eigen::Index> first_;
-  std::vector<Point> points_;
+  std::vector<Pair> pairs_;
+  std::vector<Point> points_;         // by pair
   Eigen::VectorXd load_, scale_, x_;  // true coordinate = scale * x
   std::vector<double> share_;         // weight of each body
-  bool analyzed_ = false, analyzed_coupled_ = false;
+  Blocks hessian_, jacobian_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
   Eigen::SparseLU<Eigen::SparseMatrix<double>> coupled_;
   unsigned factorizations_ = 0;
