@@ -1,6 +1,7 @@
 #include "dismantle/statics/verdict.h"
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <utility>
 
 #include "dismantle/statics/balance.h"
@@ -33,10 +34,16 @@ Judgement judge_forces(const Pile& pile, const std::function<bool()>& stop) {
 Judgement judge(const Pile& pile, const std::function<bool()>& stop) {
   Balance any = balance(pile, FrictionLaw::associated, stop);
   if (!any.balanced && check_fall(pile, any.falling).empty()) return {Verdict::falls, {}, {}, std::move(any.falling)};
+  const auto stands = [&](Balance& by) -> std::optional<Judgement> {
+    if (!by.balanced || !check_equilibrium(pile, by.forces).empty() ||
+        !check_created(pile, by.forces, by.displacement).empty())
+      return std::nullopt;
+    return Judgement{Verdict::stands, std::move(by.forces), std::move(by.displacement), {}};
+  };
+  // Where nothing slides, or slides on what presses, the associated law is Coulomb's.
+  if (auto judged = stands(any)) return std::move(*judged);
   Balance created = balance(pile, FrictionLaw::coulomb, stop);
-  if (created.balanced && check_equilibrium(pile, created.forces).empty() &&
-      check_created(pile, created.forces, created.displacement).empty())
-    return {Verdict::stands, std::move(created.forces), std::move(created.displacement), {}};
+  if (auto judged = stands(created)) return std::move(*judged);
   if (any.balanced && !created.balanced && check_equilibrium(pile, any.forces).empty() && !(stop && stop()))
     return {Verdict::pressed_in, std::move(any.forces), {}, std::move(created.falling)};
   return {};

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include "dismantle/statics/contacts.h"
@@ -23,6 +25,23 @@ Mesh bent_box(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi, F&& shape) {
 }
 inline Mesh box(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi) {
   return bent_box(lo, hi, [](const Eigen::Vector3d& p) { return p; });
+}
+
+inline Mesh ground() { return box({-5, -5, -1}, {5, 5, 0}); }
+
+/// Random blocks on each other, by a grid, so that they touch.
+inline std::vector<Mesh> random_blocks(std::mt19937& random, int n) {
+  std::vector<Mesh> meshes = {ground()};
+  std::vector<double> top(8, 0.0);
+  for (int k = 0; k < n; ++k) {
+    const int at = static_cast<int>(random() % 8), wide = 1 + static_cast<int>(random() % 3);
+    double z = 0;
+    for (int x = at; x < std::min(8, at + wide); ++x) z = std::max(z, top[static_cast<std::size_t>(x)]);
+    const double height = 0.5 * (1 + static_cast<double>(random() % 3));
+    for (int x = at; x < std::min(8, at + wide); ++x) top[static_cast<std::size_t>(x)] = z + height;
+    meshes.push_back(box({at - 4.0, 0, z}, {std::min(8, at + wide) - 4.0, 1, z + height}));
+  }
+  return meshes;
 }
 
 /// Density 1; the first `fixed` meshes do not move.

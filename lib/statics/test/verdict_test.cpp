@@ -21,8 +21,6 @@ using Vec3 = Eigen::Vector3d;
 const Vec3 kX = Vec3::UnitX(), kY = Vec3::UnitY();
 constexpr double kDegree = M_PI / 180;
 
-Mesh ground() { return box({-5, -5, -1}, {5, 5, 0}); }
-
 Verdict verdict_of(const Pile& pile) { return judge(pile).verdict; }
 
 TEST(Verdict, ABlockSlidesAtTheAngleOfFriction) {
@@ -93,21 +91,6 @@ TEST(Verdict, ALadderSlidesWhenItsFrictionIsTooSmall) {
       if (std::abs(c.normal.x()) > 0.9) c.friction = 0;
     EXPECT_EQ(verdict_of(pile), factor > 1 ? Verdict::stands : Verdict::falls);
   }
-}
-
-/// Random blocks on each other, by a grid, so that they touch.
-std::vector<Mesh> random_blocks(std::mt19937& random, int n) {
-  std::vector<Mesh> meshes = {ground()};
-  std::vector<double> top(8, 0.0);
-  for (int k = 0; k < n; ++k) {
-    const int at = static_cast<int>(random() % 8), wide = 1 + static_cast<int>(random() % 3);
-    double z = 0;
-    for (int x = at; x < std::min(8, at + wide); ++x) z = std::max(z, top[static_cast<std::size_t>(x)]);
-    const double height = 0.5 * (1 + static_cast<double>(random() % 3));
-    for (int x = at; x < std::min(8, at + wide); ++x) top[static_cast<std::size_t>(x)] = z + height;
-    meshes.push_back(box({at - 4.0, 0, z}, {std::min(8, at + wide) - 4.0, 1, z + height}));
-  }
-  return meshes;
 }
 
 TEST(Verdict, IsTheSameForAPileThatIsTurnedScaledAndRenamed) {

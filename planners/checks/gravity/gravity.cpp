@@ -13,7 +13,6 @@
 
 #include "dismantle/part_set.h"
 #include "dismantle/statics/describe.h"
-#include "dismantle/statics/holds.h"
 
 namespace dismantle::checks {
 
@@ -123,17 +122,15 @@ std::shared_ptr<Gravity::Scene> Gravity::scene_of(const Assembly& assembly) cons
   return scene_;
 }
 
-Gravity::State Gravity::holds_of(const statics::BuiltPile& built, std::span<const PlacedPart> parts,
+Gravity::State Gravity::holds_of(Scene& scene, const statics::BuiltPile& built, std::span<const PlacedPart> parts,
                                  const Assembly& assembly) const {
-  const statics::Holds holds = statics::least_holds_by_forces(built.pile);
+  const statics::Holds holds = statics::least_holds_by_forces(built.pile, {}, &scene.judgements);
   State state;
   state.found = holds.found;
   state.proved = holds.proved;
   if (holds.held.empty()) return state;
-  const statics::Judgement free = statics::judge_forces(built.pile);
-  statics::Pile held = built.pile;
-  for (const std::uint32_t body : holds.held) held.bodies[body].fixed = true;
-  const statics::Judgement with = statics::judge_forces(held);
+  const statics::ContactForces& forces = holds.forces;
+  const std::vector<statics::Contact>& contacts = built.pile.contacts;
   for (const std::uint32_t body : holds.held) {
     Hold hold;
     double largest = -1;
@@ -143,14 +140,16 @@ Gravity::State Gravity::holds_of(const statics::BuiltPile& built, std::span<cons
         hold.part = parts[i].part;
       }
     Vec3 force = built.pile.bodies[body].weight * built.pile.down;
-    for (std::size_t k = 0; k < with.forces.size() && k < held.contacts.size(); ++k)
-      for (const Vec3& f : with.forces[k])
-        force += held.contacts[k].a == body ? f : held.contacts[k].b == body ? Vec3(-f) : Vec3(Vec3::Zero());
+    for (std::size_t k = 0; k < forces.size(); ++k)
+      for (const Vec3& f : forces[k])
+        force += contacts[k].a == body ? f : contacts[k].b == body ? Vec3(-f) : Vec3(Vec3::Zero());
     hold.newton = force.norm();
-    if (body < free.motion.size()) {
-      const statics::Motion& motion = free.motion[body];
-      if (motion.v.norm() + motion.w.norm() > 0)
-        hold.motion = statics::motion_text(built.pile.bodies[body], motion, built.pile.down);
+    for (const statics::HoldGroup& group : holds.groups) {
+      if (group.motion.empty()) continue;
+      const statics::Motion& motion = group.motion[body];
+      if (!(motion.v.norm() + motion.w.norm() > 0)) continue;
+      hold.motion = statics::motion_text(built.pile.bodies[body], motion, built.pile.down);
+      break;
     }
     state.holds.push_back(std::move(hold));
   }
@@ -172,7 +171,7 @@ Gravity::State Gravity::at_rest(Scene& scene, const Assembly& assembly, std::spa
   };
   State state;
   if (!table || scene.piles->unsupported(parts, parts, up) > 0 || !(balanced(Gaps::tight) || balanced(Gaps::play)))
-    state = holds_of(scene.piles->pile(parts, up, Gaps::play, table), parts, assembly);
+    state = holds_of(scene, scene.piles->pile(parts, up, Gaps::play, table), parts, assembly);
   const std::lock_guard lock(mutex_);
   return scene.known.emplace(std::move(key), std::move(state)).first->second;
 }
@@ -194,7 +193,7 @@ Gravity::State Gravity::while_put_in(Scene& scene, const StepQuestion& question)
       for (std::size_t i = 0; i < parts.size(); ++i)
         if (parts[i].part == h.part) held.bodies[pressed.body_of[i]].fixed = true;
     if (statics::judge_forces(held).verdict == statics::Verdict::stands) continue;
-    State state = holds_of(pressed, parts, question.assembly);
+    State state = holds_of(scene, pressed, parts, question.assembly);
     if (state.holds.size() > worst.holds.size() || !state.found) worst = std::move(state);
   }
   return worst;

@@ -11,6 +11,7 @@
 
 #include "dismantle/parameters.h"
 #include "dismantle/statics/built.h"
+#include "dismantle/statics/holds.h"
 #include "dismantle/step_check.h"
 
 namespace dismantle::checks {
@@ -52,9 +53,11 @@ class Gravity final : public StepCheck {
   struct Scene {
     std::unique_ptr<const statics::BuiltPiles> piles;
     std::map<std::vector<double>, State> known;
+    statics::KnownJudgements judgements;
   };
   std::shared_ptr<Scene> scene_of(const Assembly& assembly) const;
-  State holds_of(const statics::BuiltPile& built, std::span<const PlacedPart> parts, const Assembly& assembly) const;
+  State holds_of(Scene& scene, const statics::BuiltPile& built, std::span<const PlacedPart> parts,
+                 const Assembly& assembly) const;
   State at_rest(Scene& scene, const Assembly& assembly, std::span<const PlacedPart> parts, const Eigen::Vector3d& up,
                 bool table) const;
   State while_put_in(Scene& scene, const StepQuestion& question) const;
