@@ -7,6 +7,7 @@
 #include <memory>
 #include <tuple>
 
+#include "check/fastenings.h"
 #include "check/kinds.h"
 #include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/verification/contact.h"
@@ -130,8 +131,8 @@ class Geometry {
         bvhs_.size(), context, "check",
         [&](std::size_t i) {
           const Part& part = assembly_.parts[i];
-          bvhs_[i] = std::make_unique<TriangleBvh>(*part.mesh, geometry::Poll{},
-                                                   part.open ? Surface::open : Surface::closed);
+          bvhs_[i] =
+              std::make_unique<TriangleBvh>(*part.mesh, geometry::Poll{}, part.open ? Surface::open : Surface::closed);
           bodies_[i] = std::make_unique<DepthBody>(*assembly_.parts[i].mesh);
         },
         [&](std::size_t i) { return assembly_.parts[i].name; });
@@ -153,6 +154,8 @@ class Geometry {
                                   {},
                                   assembly_.normalization.to_input(assembly_.parts[id].mesh->box().center())});
   }
+
+  const TriangleBvh& surface(PartId id) const { return *bvhs_[id]; }
 
  private:
   const std::string& name(PartId id) const { return assembly_.parts[id].name; }
@@ -310,9 +313,7 @@ std::size_t AssemblyCheck::count(Severity severity) const {
       std::ranges::count_if(findings, [severity](const Finding& f) { return f.severity == severity; }));
 }
 
-bool AssemblyCheck::sound() const {
-  return count(Severity::error) == 0 && usable == parts;
-}
+bool AssemblyCheck::sound() const { return count(Severity::error) == 0 && usable == parts; }
 
 AssemblyCheck check_parts(const PrepareReport& report) {
   AssemblyCheck check;
@@ -328,7 +329,10 @@ AssemblyCheck check_assembly(const Assembly& assembly, const PrepareReport& repo
   add_input_findings(report, check);
   add_part_findings(report, check);
   add_flexible_findings(report, assembly.normalization.scale, check);
-  Geometry(assembly, tolerance, context).add_findings(check);
+  const Geometry geometry(assembly, tolerance, context);
+  geometry.add_findings(check);
+  add_fastenings(
+      assembly, [&](PartId id) -> const TriangleBvh& { return geometry.surface(id); }, check, context);
   sort_findings(check);
   check.kinds = checked_kinds(assembly);
   return check;

@@ -4,6 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "check/fastenings.h"
 #include "check/kinds.h"
 #include "dismantle/preparation/check_assembly.h"
 
@@ -29,6 +30,8 @@ std::string_view to_string(FindingKind kind) {
       return "isolated";
     case FindingKind::flexible:
       return "flexible";
+    case FindingKind::fastener:
+      return "fastener";
     case FindingKind::input:
       return "input";
   }
@@ -75,6 +78,7 @@ std::string findings_text(const AssemblyCheck& check, const std::string& source,
       fmt::format("{}: {} part{}, {} usable\n", source, check.parts, check.parts == 1 ? "" : "s", check.usable);
   out += contacts_text(check);
   out += kinds_text(check.kinds, verbose);
+  out += fastenings_text(check.fastenings);
   for (const Finding& f : check.findings) {
     out += fmt::format("{}: {}", to_string(f.severity), f.message);
     if (f.at) out += fmt::format(", at ({:.6g}, {:.6g}, {:.6g})", f.at->x(), f.at->y(), f.at->z());
@@ -119,6 +123,14 @@ std::string findings_json(const AssemblyCheck& check) {
                              {"reason", k.kind.reason},
                              {"stated", k.kind.stated},
                              {"parts", k.parts}});
+  json["fasteners"] = nlohmann::ordered_json::array();
+  for (const CheckedFastening& f : check.fastenings)
+    json["fasteners"].push_back({{"screws", f.screws},
+                                 {"size", f.size},
+                                 {"text", f.text},
+                                 {"clamps", f.clamps},
+                                 {"into", f.into},
+                                 {"only", f.only}});
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -25,6 +25,7 @@ enum class FindingKind {
   enclosed,   ///< a part lies inside the solid material of another
   isolated,   ///< it touches no other part
   flexible,   ///< a part counts as flexible, declared or by its shape
+  fastener,   ///< a screw does not hold as it stands: no nut, another thread, too short, on the ground of its hole
   input,      ///< about the files, or the assembly as a whole: what `dismantle plan` says, too
 };
 
@@ -62,6 +63,14 @@ struct CheckedKind {
   PartKind kind;
 };
 
+/// Equal screws that do the same; see fasteners::Fastening.
+struct CheckedFastening {
+  std::vector<std::string> screws;
+  std::string size;                             ///< "M3x10"; empty: not known
+  std::string text;                             ///< what they do, in words; not empty
+  std::vector<std::string> clamps, into, only;  ///< names of parts
+};
+
 /// Result of check_assembly().
 struct AssemblyCheck {
   std::vector<Finding> findings;  ///< errors first, then warnings, then notes; deeper overlaps first
@@ -69,6 +78,7 @@ struct AssemblyCheck {
   std::size_t usable = 0;
   std::vector<CheckedContact> contacts;  ///< pairs nearer than 1 % of the assembly's size, in the order of its parts
   std::vector<CheckedKind> kinds{};      ///< of parts whose kind was looked at, fasteners first; see Part::kind
+  std::vector<CheckedFastening> fastenings{};  ///< of screws whose kind was looked at, in the order of the parts
   std::size_t count(Severity severity) const;
   /// Whether a plan can be trusted to be about the whole assembly: no error, and no part is left out. Warnings alone
   /// are for people to look at.
@@ -92,8 +102,9 @@ DISMANTLE_API std::string_view to_string(Severity severity);
 DISMANTLE_API std::string findings_text(const AssemblyCheck& check, const std::string& source, bool verbose = false);
 /// One JSON object: {"parts", "usable", "errors", "warnings", "findings": [{"kind", "severity", "parts", "message",
 /// "advice", "class", "depth", "at", "picture", "details"}], "contacts": [{"parts", "class", "depth", "at", "region",
-/// "share", "axis"}], "kinds": [{"kind", "size", "confidence", "reason", "stated", "parts"}]}; the last five keys of a
-/// finding and the last five of a contact are left out if they do not apply.
+/// "share", "axis"}], "kinds": [{"kind", "size", "confidence", "reason", "stated", "parts"}], "fasteners": [{"screws",
+/// "size", "text", "clamps", "into", "only"}]}; the last five keys of a finding and the last five of a contact are left
+/// out if they do not apply.
 DISMANTLE_API std::string findings_json(const AssemblyCheck& check);
 
 }  // namespace dismantle
