@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "dismantle/fasteners/name.h"
 #include "dismantle/fasteners/recognise.h"
@@ -166,9 +167,75 @@ tools::Fastener FastenerMemo::driven_by(const Driven& driven, std::optional<Part
   return f;
 }
 
-tools::Access FastenerMemo::room(const Driven& driven, const tools::Fastener& fastener, bool flipped,
-                                 const tools::Use& use, std::size_t place, std::span<const PlacedPart> there,
-                                 const Pose& pose, bool hand) const {
+void FastenerMemo::find_fastenings() const {
+  std::call_once(fastenings_once_, [&] {
+    const std::size_t parts = assembly_.parts.size();
+    const RunContext context;
+    fastenings_ = fasteners::fastenings_of(
+        assembly_, fasteners::shapes_of(assembly_, context),
+        [&](PartId id) -> const TriangleBvh& { return surface(id); }, context);
+    fastening_of_.resize(parts);
+    screw_in_.resize(parts);
+    nut_of_.resize(parts);
+    for (std::size_t i = 0; i < fastenings_.size(); ++i) {
+      const fasteners::Fastening& f = fastenings_[i];
+      fastening_of_[f.screw] = i;
+      if (!f.nut) continue;
+      for (const PartId part : f.into) {
+        const Driven* nut = driven(part);
+        if (nut == nullptr || nut->fastener.kind != Kind::nut || nut->fastener.drive == Drive::none) continue;
+        if (!nut_of_[f.screw]) nut_of_[f.screw] = part;
+        if (!screw_in_[part]) screw_in_[part] = f.screw;
+      }
+    }
+  });
+}
+
+const fasteners::Fastening* FastenerMemo::fastening_of(PartId screw) const {
+  find_fastenings();
+  return fastening_of_[screw] ? &fastenings_[*fastening_of_[screw]] : nullptr;
+}
+
+std::optional<PartId> FastenerMemo::screw_in(PartId nut) const {
+  find_fastenings();
+  return screw_in_[nut];
+}
+
+std::optional<PartId> FastenerMemo::nut_of(PartId screw) const {
+  find_fastenings();
+  return nut_of_[screw];
+}
+
+std::optional<PartId> FastenerMemo::kept_by(const Driven& driven, std::span<const PlacedPart> there,
+                                            const Pose& at) const {
+  const tools::Fastener& f = driven.fastener;
+  if (f.drive != Drive::outer_hex && f.drive != Drive::square) return std::nullopt;
+  const Eigen::Vector3d u = f.axis.unitOrthogonal(), v = f.axis.cross(u);
+  constexpr int angles = 36;  // the corners go round on this circle
+  const double radius = 0.985 * f.radius / mm_;
+  for (const PlacedPart& part : there) {
+    if (part.part == driven.part || assembly_.parts[part.part].open) continue;
+    if (driven_by_thread(part.part)) continue;
+    const Pose to = part.pose.inverse() * at;
+    for (const double share : {0.2, 0.5, 0.8})
+      for (int k = 0; k < angles; ++k) {
+        const double angle = 2 * std::numbers::pi * k / angles;
+        const Eigen::Vector3d p =
+            f.top - share * f.grip / mm_ * f.axis + radius * (std::cos(angle) * u + std::sin(angle) * v);
+        if (surface(part.part).inside(to * p)) return part.part;
+      }
+  }
+  return std::nullopt;
+}
+
+bool FastenerMemo::driven_by_thread(PartId part) const {
+  const Driven* other = driven(part);
+  return other != nullptr && other->fastener.kind != Kind::ring;
+}
+
+BlockedBy FastenerMemo::blocked(const Driven& driven, const tools::Fastener& fastener, bool flipped,
+                                const tools::Use& use, std::size_t place, std::span<const PlacedPart> there,
+                                const Pose& pose, bool hand) const {
   std::shared_ptr<Row> row;
   {
     const std::lock_guard lock(mutex_);
@@ -176,8 +243,9 @@ tools::Access FastenerMemo::room(const Driven& driven, const tools::Fastener& fa
     if (!known) known = std::make_shared<Row>(assembly_.parts.size());
     row = known;
   }
-  std::vector<const tools::Arcs*> blocked;
-  std::vector<tools::Arcs> moved(there.size());
+  BlockedBy out;
+  out.kept_ = row;
+  out.moved_.resize(there.size());
   const Pose back = pose.inverse();
   for (std::size_t i = 0; i < there.size(); ++i) {
     const PartId part = there[i].part;
@@ -188,10 +256,15 @@ tools::Access FastenerMemo::room(const Driven& driven, const tools::Fastener& fa
         row->arcs[part] = tools::blocked_angles(use, fastener, {&surface(part), closed}, hand);
       });
     else
-      moved[i] = tools::blocked_angles(use, fastener, {&surface(part), closed, back * there[i].pose}, hand);
-    blocked.push_back(in_place ? &row->arcs[part] : &moved[i]);
+      out.moved_[i] = tools::blocked_angles(use, fastener, {&surface(part), closed, back * there[i].pose}, hand);
+    out.arcs_.push_back(in_place ? &row->arcs[part] : &out.moved_[i]);
   }
-  tools::Access access = tools::room_for(use, fastener, blocked);
+  return out;
+}
+
+tools::Access FastenerMemo::room(const tools::Fastener& fastener, const tools::Use& use, const BlockedBy& blocked,
+                                 std::span<const PlacedPart> there, const Pose& pose) {
+  tools::Access access = tools::room_for(use, fastener, blocked.arcs());
   access.handle = pose.q * access.handle;
   for (std::size_t& index : access.in_the_way) index = there[index].part;
   return access;

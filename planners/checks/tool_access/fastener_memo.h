@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "dismantle/assembly.h"
+#include "dismantle/fasteners/fastening.h"
 #include "dismantle/fasteners/shape.h"
 #include "dismantle/simulator.h"
 #include "dismantle/tools/access.h"
@@ -28,6 +29,21 @@ struct Driven {
   std::vector<PartId> partners{};
 };
 
+/// What blocks the use of a tool, by part that is there.
+class BlockedBy {
+ public:
+  BlockedBy() = default;
+  BlockedBy(BlockedBy&&) = default;
+  BlockedBy& operator=(BlockedBy&&) = default;
+  std::span<const tools::Arcs* const> arcs() const { return arcs_; }
+
+ private:
+  friend class FastenerMemo;
+  std::shared_ptr<const void> kept_;
+  std::vector<tools::Arcs> moved_;
+  std::vector<const tools::Arcs*> arcs_;
+};
+
 /// Thread-safe. The assembly must outlive it.
 class FastenerMemo {
  public:
@@ -40,10 +56,22 @@ class FastenerMemo {
   /// The fastener as it is driven into `partner`, or onto it: a nut travels along what stands out of it.
   tools::Fastener driven_by(const Driven& driven, std::optional<PartId> partner, bool flipped) const;
 
-  /// Where the use of a tool has room past the parts that are there. Ids of parts are in Access::in_the_way. `fastener`
-  /// is as assembled; `pose` takes it to where it is. `place`: number of the use in its catalogue.
-  tools::Access room(const Driven& driven, const tools::Fastener& fastener, bool flipped, const tools::Use& use,
-                     std::size_t place, std::span<const PlacedPart> there, const Pose& pose, bool hand) const;
+  /// What the screws of the assembly do; found at the first call. None: the part is no screw, or nothing is known.
+  const fasteners::Fastening* fastening_of(PartId screw) const;
+  /// The screw that is driven into this nut, or none.
+  std::optional<PartId> screw_in(PartId nut) const;
+  /// The nut with a drive that this screw is driven into, or none.
+  std::optional<PartId> nut_of(PartId screw) const;
+  /// The part in which a nut, or a head with corners, cannot turn. `at`: `driven` is there.
+  std::optional<PartId> kept_by(const Driven& driven, std::span<const PlacedPart> there, const Pose& at) const;
+
+  /// What is in the way of the use of a tool, in the order of `there`. `fastener` is as assembled; `pose` takes it to
+  /// where it is. `place`: number of the use in its catalogue.
+  BlockedBy blocked(const Driven& driven, const tools::Fastener& fastener, bool flipped, const tools::Use& use,
+                    std::size_t place, std::span<const PlacedPart> there, const Pose& pose, bool hand) const;
+  /// Where the use of a tool has room past it. Ids of parts are in Access::in_the_way.
+  static tools::Access room(const tools::Fastener& fastener, const tools::Use& use, const BlockedBy& blocked,
+                            std::span<const PlacedPart> there, const Pose& pose);
 
  private:
   using Key = std::tuple<PartId, bool, double, std::size_t, bool>;  // part, flipped, travel, place, hand
@@ -54,6 +82,8 @@ class FastenerMemo {
   };
   const TriangleBvh& surface(PartId part) const;
   std::optional<Driven> look_at(const Part& part) const;
+  void find_fastenings() const;
+  bool driven_by_thread(PartId part) const;
   void find_partners(Driven& driven, const fasteners::Shape& shape) const;
 
   const Assembly& assembly_;
@@ -62,6 +92,10 @@ class FastenerMemo {
   mutable std::vector<std::once_flag> surface_once_, driven_once_;
   mutable std::vector<std::unique_ptr<TriangleBvh>> surfaces_;
   mutable std::vector<std::optional<Driven>> driven_;
+  mutable std::once_flag fastenings_once_;
+  mutable std::vector<fasteners::Fastening> fastenings_;
+  mutable std::vector<std::optional<std::size_t>> fastening_of_;  // by screw
+  mutable std::vector<std::optional<PartId>> screw_in_, nut_of_;  // by nut, by screw
   mutable std::mutex mutex_;
   mutable std::map<Key, std::shared_ptr<Row>> rows_;
 };

@@ -184,6 +184,88 @@ TEST(ToolAccess, ANutIsTightenedOnTheScrewThatIsThere) {
   EXPECT_TRUE(v.notes.empty());
 }
 
+/// A bolt M3x12 from above and a nut through two plates of 4 mm.
+struct Bolted : Scene {
+  PartId bolt, upper, lower, nut;
+  Bolted() {
+    bolt = add("bolt", solids::screw({3, 12, 5.5, 3, {}, solids::polygon(6, 2.5), 1.5}), {0, 0, -12});
+    upper = add("upper", shapes::tube(1.7, 15, -4, 0, 64));
+    lower = add("lower", shapes::tube(1.7, 15, -8, -4, 64));
+    nut = add("nut", solids::nut(solids::polygon(6, 5.5), 2.5, 2.4), {0, 0, -10.4});
+  }
+};
+
+// A nut turns with its bolt unless a second tool holds it: both have room, on either end, whatever the pose and unit.
+TEST(ToolAccess, ABoltIsHeldWhileItsNutIsTightened) {
+  Rng rng(8);
+  for (const char* unit : {"mm", "m", "inch"}) {
+    const Bolted s;
+    const Pose pose = shapes::random_pose(rng, 30);
+    const Assembly assembly = s.assembly(pose, rng.uniform(0.01, 2), unit);
+    const Vector3d up = pose.q * Vector3d::UnitZ();
+    const StepVerdict v = judge(ToolAccess(), assembly, {s.nut}, {s.bolt, s.upper, s.lower}, up);
+    EXPECT_EQ(v.cost, 0);
+    const nlohmann::json data = data_of(v, "tool");
+    EXPECT_EQ(data["part"], "nut");
+    ASSERT_TRUE(data.contains("hold")) << v.notes[0].text;
+    EXPECT_EQ(data["hold"]["part"], "bolt");
+    EXPECT_EQ(data["hold"]["tool"], "hex_key_2.5");
+    const Vector3d from(data["from"][0], data["from"][1], data["from"][2]);
+    const Vector3d other(data["hold"]["from"][0], data["hold"]["from"][1], data["hold"]["from"][2]);
+    EXPECT_LT((from + up).norm(), 1e-3);
+    EXPECT_LT((other - up).norm(), 1e-3);
+    EXPECT_NE(v.notes[0].text.find("hold 'bolt' (M3x12, hex socket 2.5) with hex key 2.5"), std::string::npos)
+        << v.notes[0].text;
+    EXPECT_NE(v.notes[0].text.find("'bolt' clamps 'upper' and 'lower' together"), std::string::npos);
+    EXPECT_EQ(data["fastens"]["clamps"], nlohmann::json::array({"upper", "lower"}));
+    EXPECT_EQ(data["fastens"]["into"], nlohmann::json::array({"nut"}));
+  }
+}
+
+TEST(ToolAccess, WithoutRoomForTheSecondToolItCosts) {
+  Bolted s;
+  const PartId lid = s.add("lid", wall(4, 330));
+  const Assembly assembly = s.assembly();
+  StepVerdict v = judge(ToolAccess(), assembly, {s.nut}, {s.bolt, s.upper, s.lower, lid}, Vector3d::UnitZ());
+  EXPECT_EQ(v.cost, 1);
+  nlohmann::json data = data_of(v, "blocked");
+  EXPECT_EQ(data["in_the_way"], nlohmann::json::array({"lid"}));
+  EXPECT_NE(v.notes[0].text.find("No tool of the catalogue holds 'bolt'"), std::string::npos) << v.notes[0].text;
+  // Both tools count as changes.
+  const std::vector<PlacedPart> plate_only{{s.lower, Pose{}}};
+  const StepQuestion previous{assembly, plate_only, {}};
+  v = judge(ToolAccess(), assembly, {s.nut}, {s.bolt, s.upper, s.lower}, Vector3d::UnitZ(), &previous);
+  EXPECT_NEAR(v.cost, 0.2, 1e-12);
+}
+
+TEST(ToolAccess, ABoltWaitsForItsNut) {
+  const Bolted s;
+  const Assembly assembly = s.assembly();
+  const StepVerdict v = judge(ToolAccess(), assembly, {s.bolt}, {s.upper, s.lower}, -Vector3d::UnitZ());
+  EXPECT_EQ(v.cost, 0);
+  EXPECT_EQ(data_of(v, "later")["nut"], "nut");
+  EXPECT_EQ(v.notes[0].text.find("Put in 'bolt' by hand: 'nut' is screwed on later."), 0u) << v.notes[0].text;
+}
+
+// In a pocket with corners the nut needs no second tool, whichever of the two comes last.
+TEST(ToolAccess, ANutInAPocketIsNotHeld) {
+  Bolted s;
+  const PartId pocket = s.add("pocket", solids::turned_solid({{-30, solids::circle(24)},
+                                                              {-8, solids::circle(24)},
+                                                              {-8, solids::polygon(6, 5.8)},
+                                                              {-30, solids::polygon(6, 5.8)}}));
+  const Assembly assembly = s.assembly();
+  const StepVerdict v = judge(ToolAccess(), assembly, {s.bolt}, {s.upper, s.lower, s.nut, pocket}, -Vector3d::UnitZ());
+  EXPECT_EQ(v.cost, 0);
+  EXPECT_EQ(data_of(v, "tool")["kept_by"], "pocket");
+  const StepVerdict last =
+      judge(ToolAccess(), assembly, {s.nut}, {s.upper, s.lower, s.bolt, pocket}, Vector3d::UnitZ());
+  EXPECT_EQ(last.cost, 0);
+  const nlohmann::json data = data_of(last, "tool");
+  EXPECT_EQ(data["turned"], "bolt");
+  EXPECT_EQ(data["kept_by"], "pocket");
+}
+
 /// A flat ring with a gap, as a circlip is cut from sheet.
 Mesh circlip(double inner, double outer, double thick) {
   Mesh mesh;

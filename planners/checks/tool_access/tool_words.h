@@ -1,0 +1,47 @@
+/// Words for tools and fasteners in notes.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "dismantle/tools/access.h"
+#include "fastener_memo.h"
+
+namespace dismantle::checks {
+
+inline std::string direction_text(const Eigen::Vector3d& d) {
+  const auto rounded = [](double x) { return std::round(x * 100) / 100 + 0.0; };
+  return fmt::format("({:g}, {:g}, {:g})", rounded(d.x()), rounded(d.y()), rounded(d.z()));
+}
+
+/// "'a', 'b' and 'c' are".
+inline std::string listed_names(const std::vector<std::string>& names) {
+  std::string out;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    out += fmt::format("{}'{}'", i == 0 ? "" : i + 1 == names.size() ? " and " : ", ", names[i]);
+  return out + (names.size() == 1 ? " is" : " are");
+}
+
+inline std::string drive_text(const tools::Fastener& f) {
+  if (f.kind == fasteners::Kind::ring) return fmt::format("ring of {:.3g} mm", f.size);
+  return fmt::format("{} {:.4g}", fasteners::to_string(f.drive), std::round(20 * f.size) / 20);
+}
+
+/// "'screw_3' (M3x10, hex socket 2.5)".
+inline std::string label(const std::string& name, const Driven& driven) {
+  const std::string drive = drive_text(driven.fastener);
+  return driven.size.empty() ? fmt::format("'{}' ({})", name, drive)
+                             : fmt::format("'{}' ({}, {})", name, driven.size, drive);
+}
+
+inline std::string use_text(const tools::Tool& tool, const tools::Use& use) {
+  return use.name.empty() ? tool.name : fmt::format("{}, {}", tool.name, use.name);
+}
+
+inline nlohmann::json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace dismantle::checks
