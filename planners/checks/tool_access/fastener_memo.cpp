@@ -171,10 +171,14 @@ void FastenerMemo::find_fastenings() const {
   std::call_once(fastenings_once_, [&] {
     const std::size_t parts = assembly_.parts.size();
     const RunContext context;
+    const auto shapes = fasteners::shapes_of(assembly_, context);
     fastenings_ = fasteners::fastenings_of(
-        assembly_, fasteners::shapes_of(assembly_, context),
-        [&](PartId id) -> const TriangleBvh& { return surface(id); }, context);
+        assembly_, shapes, [&](PartId id) -> const TriangleBvh& { return surface(id); }, context);
+    patterns_ = fasteners::patterns_of(assembly_, fastenings_, shapes);
     fastening_of_.resize(parts);
+    pattern_of_.resize(parts);
+    for (std::size_t i = 0; i < patterns_.size(); ++i)
+      for (const PartId screw : patterns_[i].screws) pattern_of_[screw] = i;
     screw_in_.resize(parts);
     nut_of_.resize(parts);
     for (std::size_t i = 0; i < fastenings_.size(); ++i) {
@@ -194,6 +198,11 @@ void FastenerMemo::find_fastenings() const {
 const fasteners::Fastening* FastenerMemo::fastening_of(PartId screw) const {
   find_fastenings();
   return fastening_of_[screw] ? &fastenings_[*fastening_of_[screw]] : nullptr;
+}
+
+const fasteners::Pattern* FastenerMemo::pattern_of(PartId screw) const {
+  find_fastenings();
+  return pattern_of_[screw] ? &patterns_[*pattern_of_[screw]] : nullptr;
 }
 
 std::optional<PartId> FastenerMemo::screw_in(PartId nut) const {

@@ -13,6 +13,7 @@
 
 #include "dismantle/assembly.h"
 #include "dismantle/fasteners/fastening.h"
+#include "dismantle/fasteners/pattern.h"
 #include "dismantle/fasteners/shape.h"
 #include "dismantle/simulator.h"
 #include "dismantle/tools/access.h"
@@ -58,6 +59,8 @@ class FastenerMemo {
 
   /// What the screws of the assembly do; found at the first call. None: the part is no screw, or nothing is known.
   const fasteners::Fastening* fastening_of(PartId screw) const;
+  /// The pattern that a screw belongs to; null: none.
+  const fasteners::Pattern* pattern_of(PartId screw) const;
   /// The screw that is driven into this nut, or none.
   std::optional<PartId> screw_in(PartId nut) const;
   /// The nut with a drive that this screw is driven into, or none.
@@ -94,8 +97,9 @@ class FastenerMemo {
   mutable std::vector<std::optional<Driven>> driven_;
   mutable std::once_flag fastenings_once_;
   mutable std::vector<fasteners::Fastening> fastenings_;
-  mutable std::vector<std::optional<std::size_t>> fastening_of_;  // by screw
-  mutable std::vector<std::optional<PartId>> screw_in_, nut_of_;  // by nut, by screw
+  mutable std::vector<fasteners::Pattern> patterns_;
+  mutable std::vector<std::optional<std::size_t>> fastening_of_, pattern_of_;  // by screw
+  mutable std::vector<std::optional<PartId>> screw_in_, nut_of_;               // by nut, by screw
   mutable std::mutex mutex_;
   mutable std::map<Key, std::shared_ptr<Row>> rows_;
 };

@@ -59,8 +59,8 @@ class Judge {
     take_up_held();
     for (const PlacedPart& part : q_.moving)
       if (const Driven* driven = memo_.driven(part.part)) look_at(*driven, part.pose);
-    verdict_.cost = unreached_ + kChange * changes_;
-    if (unreached_ == 0 && changes_ > 0) verdict_.reason = "another tool than in the step before";
+    verdict_.cost = unreached_ + early_ + kChange * changes_;
+    if (verdict_.reason.empty() && changes_ > 0) verdict_.reason = "another tool than in the step before";
     return std::move(verdict_);
   }
 
@@ -129,6 +129,45 @@ class Judge {
       return;
     }
     report(driven, answer(driven, partner, other, pose));
+    if (const auto screw = f.kind == Kind::nut ? other : driven.part) {
+      look_for_clamped(*screw);
+      look_at_pattern(*screw);
+    }
+  }
+
+  /// A screw that is tightened too early has to be loosened again.
+  void look_for_clamped(PartId screw) {
+    const fasteners::Fastening* f = memo_.fastening_of(screw);
+    if (f == nullptr) return;
+    std::vector<std::string> missing;
+    for (const PartId part : f->clamps)
+      if (!is_in(part, there_)) missing.push_back(name(part));
+    if (missing.empty()) return;
+    ++early_;
+    if (verdict_.reason.empty())
+      verdict_.reason = fmt::format("'{}' is tightened before what it clamps is there", name(screw));
+    const std::string text = fmt::format("'{}' is tightened too early: it clamps {}, which {} not there yet.",
+                                         name(screw), listed_names(missing), missing.size() == 1 ? "is" : "are");
+    verdict_.notes.push_back({"tool_access.early", text, json{{"screw", name(screw)}, {"missing", missing}}.dump()});
+  }
+
+  /// Said once, when the first screw of the pattern is tightened.
+  void look_at_pattern(PartId screw) {
+    const fasteners::Pattern* pattern = memo_.pattern_of(screw);
+    if (pattern == nullptr || std::find(said_.begin(), said_.end(), pattern) != said_.end()) return;
+    for (const PartId other : pattern->screws) {
+      const auto nut = memo_.nut_of(other);
+      if (other != screw && is_in(other, q_.present) && (!nut || is_in(*nut, q_.present))) return;
+    }
+    said_.push_back(pattern);
+    std::vector<std::string> screws, clamps;
+    for (const PartId part : pattern->screws) screws.push_back(name(part));
+    for (const PartId part : pattern->clamps) clamps.push_back(name(part));
+    std::string text = fmt::format(
+        "{} equal screws ({}) clamp {}: put all of them in by hand first, then tighten them in cross order: {}.",
+        screws.size(), pattern->size, listed_names(clamps), listed_names(screws));
+    verdict_.notes.push_back({"tool_access.pattern", std::move(text),
+                              json{{"screws", screws}, {"clamps", clamps}, {"size", pattern->size}}.dump()});
   }
 
   /// Tools that fit the fasteners of the step before: one of each is in the hand.
@@ -321,9 +360,9 @@ class Judge {
     } else {
       std::vector<std::string> names;
       for (const std::size_t part : best.access.in_the_way) names.push_back(name(static_cast<PartId>(part)));
-      if (names.empty()) names.push_back(fmt::format("the tool on {}", name(*a.task.turned)));
-      text = fmt::format("No tool of the catalogue {} {}: {} in the way of {}.", does, label(name(about), about),
-                         listed_names(names), use_text(*best.tool, *best.access.use));
+      text = fmt::format("No tool of the catalogue {} {}: {} {} in the way of {}.", does, label(name(about), about),
+                         names.empty() ? "the other tool" : listed_names(names), names.size() > 1 ? "are" : "is",
+                         use_text(*best.tool, *best.access.use));
       data["tool"] = best.tool->id;
       data["use"] = best.access.use->name;
       for (const std::size_t part : best.access.in_the_way)
@@ -342,7 +381,8 @@ class Judge {
   StepVerdict verdict_;
   std::vector<bool> in_hand_;  // by tool
   bool used_ = false;          // a tool, in this step
-  int unreached_ = 0, changes_ = 0;
+  std::vector<const fasteners::Pattern*> said_;
+  int unreached_ = 0, early_ = 0, changes_ = 0;
 };
 
 }  // namespace

@@ -18,12 +18,12 @@ inline std::string direction_text(const Eigen::Vector3d& d) {
   return fmt::format("({:g}, {:g}, {:g})", rounded(d.x()), rounded(d.y()), rounded(d.z()));
 }
 
-/// "'a', 'b' and 'c' are".
+/// "'a', 'b' and 'c'".
 inline std::string listed_names(const std::vector<std::string>& names) {
   std::string out;
   for (std::size_t i = 0; i < names.size(); ++i)
     out += fmt::format("{}'{}'", i == 0 ? "" : i + 1 == names.size() ? " and " : ", ", names[i]);
-  return out + (names.size() == 1 ? " is" : " are");
+  return out;
 }
 
 inline std::string drive_text(const tools::Fastener& f) {

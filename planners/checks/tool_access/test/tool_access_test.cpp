@@ -266,6 +266,46 @@ TEST(ToolAccess, ANutInAPocketIsNotHeld) {
   EXPECT_EQ(data["kept_by"], "pocket");
 }
 
+// A screw that is tightened before what it clamps is there costs; one note, with the names.
+TEST(ToolAccess, AScrewComesAfterWhatItClamps) {
+  Scene s;
+  const PartId screw_id = s.add("screw", screw(), {0, 0, -10});
+  const PartId lid = s.add("lid", shapes::tube(1.7, 15, -3, 0, 64));
+  const PartId base = s.add("base", shapes::tube(1.25, 15, -20, -3, 64));
+  const Assembly assembly = s.assembly();
+  EXPECT_EQ(judge(ToolAccess(), assembly, {screw_id}, {lid, base}, -Vector3d::UnitZ()).cost, 0);
+  const StepVerdict v = judge(ToolAccess(), assembly, {screw_id}, {base}, -Vector3d::UnitZ());
+  EXPECT_EQ(v.cost, 1);
+  EXPECT_TRUE(v.allowed);
+  EXPECT_EQ(v.reason, "'screw' is tightened before what it clamps is there");
+  ASSERT_EQ(v.notes.size(), 2u);
+  EXPECT_EQ(v.notes[1].kind, "tool_access.early");
+  EXPECT_EQ(v.notes[1].text, "'screw' is tightened too early: it clamps 'lid', which is not there yet.");
+}
+
+// The first of four equal screws says how they are tightened, the others do not.
+TEST(ToolAccess, APatternIsTightenedCrosswise) {
+  Scene s;
+  Mesh lid, base;
+  std::vector<PartId> screws;
+  for (const Vector3d& at : {Vector3d(0, 0, 0), Vector3d(30, 0, 0), Vector3d(30, 30, 0), Vector3d(0, 30, 0)}) {
+    screws.push_back(s.add("s" + std::to_string(screws.size() + 1), screw(), at - Vector3d(0, 0, 10)));
+    lid = shapes::joined(lid, shapes::moved(shapes::tube(1.7, 14, -3, 0, 64), shapes::shift(at)));
+    base = shapes::joined(base, shapes::moved(shapes::tube(1.25, 14, -20, -3, 64), shapes::shift(at)));
+  }
+  const PartId lid_id = s.add("lid", lid), base_id = s.add("base", base);
+  const Assembly assembly = s.assembly();
+  const Vector3d down = -Vector3d::UnitZ();
+  const StepVerdict first = judge(ToolAccess(), assembly, {screws[2]}, {lid_id, base_id}, down);
+  ASSERT_EQ(first.notes.size(), 2u);
+  EXPECT_EQ(first.notes[1].kind, "tool_access.pattern");
+  EXPECT_EQ(first.notes[1].text,
+            "4 equal screws (M3x10) clamp 'lid': put all of them in by hand first, then tighten them in cross order: "
+            "'s1', 's3', 's2' and 's4'.");
+  EXPECT_EQ(judge(ToolAccess(), assembly, {screws[0]}, {lid_id, base_id, screws[2]}, down).notes.size(), 1u);
+  EXPECT_EQ(judge(ToolAccess(), assembly, screws, {lid_id, base_id}, down).notes.size(), 5u);
+}
+
 /// A flat ring with a gap, as a circlip is cut from sheet.
 Mesh circlip(double inner, double outer, double thick) {
   Mesh mesh;
