@@ -94,12 +94,15 @@ const Driven* FastenerMemo::driven(PartId part) const {
 
 std::optional<Driven> FastenerMemo::look_at(const Part& part) const {
   if (part.open) return std::nullopt;
-  const auto among = [](Kind kind) { return kind == Kind::screw || kind == Kind::nut || kind == Kind::ring; };
+  const auto among = [](Kind kind) {
+    return kind == Kind::screw || kind == Kind::nut || kind == Kind::ring || kind == Kind::pin || kind == Kind::bearing;
+  };
   if (part.kind && !among(fasteners::kind_from_string(part.kind->kind).value_or(Kind::other))) return std::nullopt;
   const Shape shape = fasteners::recognise_shape(*part.mesh, mm_);
   const PartKind said = kind_of(part, shape);
   const Kind kind = fasteners::kind_from_string(said.kind).value_or(Kind::other);
   if (!among(kind)) return std::nullopt;
+  if (kind == Kind::pin || kind == Kind::bearing) return pressed_in(part, shape, said);
   Driven out;
   out.part = part.id;
   out.size = said.size;
@@ -110,6 +113,7 @@ std::optional<Driven> FastenerMemo::look_at(const Part& part) const {
     const bool open_ring = shape.kind == Kind::other || shape.kind == Kind::plate;
     if (!open_ring || !lay_circlip(*part.mesh, mm_, f)) return std::nullopt;
     out.either_side = true;
+    out.height = f.grip;
     find_partners(out, shape);
     return out;
   }
@@ -126,7 +130,35 @@ std::optional<Driven> FastenerMemo::look_at(const Part& part) const {
   f.travel = kind == Kind::nut ? length : std::min(length, 4 * mm_ * shape.shank_radius);
   if (kind == Kind::screw && f.grip == 0) f.travel = std::min(mm_ * shape.height, 4 * mm_ * shape.shank_radius);
   out.either_side = kind == Kind::nut;
+  out.height = f.grip;
   find_partners(out, shape);
+  return out;
+}
+
+std::optional<Driven> FastenerMemo::pressed_in(const Part& part, const Shape& shape, const PartKind& said) const {
+  if (shape.kind == Kind::other || !(shape.height > 0) || !(shape.radius > 0)) return std::nullopt;
+  Driven out;
+  out.part = part.id;
+  out.size = said.size;
+  out.pressed = out.either_side = true;
+  tools::Fastener& f = out.fastener;
+  f.mm = mm_;
+  f.kind = fasteners::kind_from_string(said.kind).value_or(Kind::pin);
+  f.radius = shape.radius * mm_;
+  f.size = 2 * f.radius;
+  f.axis = shape.axis;
+  // A tool that lies on its end does not touch what is flush with it.
+  const double clear = 0.01 * shape.radius;
+  f.top = shape.top + clear * f.axis;
+  out.height = mm_ * (shape.height + 2 * clear);
+  f.travel = mm_ * shape.height;
+  for (const InitialOverlap& o : assembly_.overlaps) {
+    if (o.a != part.id && o.b != part.id) continue;
+    if (!o.place || o.place->contact != ContactClass::uniform_interference || !o.place->axis) continue;
+    if (std::abs(o.place->axis->normalized().dot(shape.axis)) > 0.99)
+      out.partners.push_back(o.a == part.id ? o.b : o.a);
+  }
+  if (out.partners.empty()) return std::nullopt;
   return out;
 }
 
@@ -154,7 +186,7 @@ void FastenerMemo::find_partners(Driven& driven, const Shape& shape) const {
 tools::Fastener FastenerMemo::driven_by(const Driven& driven, std::optional<PartId> partner, bool flipped) const {
   tools::Fastener f = driven.fastener;
   if (flipped) {
-    f.top -= f.grip / mm_ * f.axis;
+    f.top -= driven.height / mm_ * f.axis;
     f.axis = -f.axis;
   }
   if (!partner || f.kind != Kind::nut) return f;
@@ -239,7 +271,7 @@ std::optional<PartId> FastenerMemo::kept_by(const Driven& driven, std::span<cons
 
 bool FastenerMemo::driven_by_thread(PartId part) const {
   const Driven* other = driven(part);
-  return other != nullptr && other->fastener.kind != Kind::ring;
+  return other != nullptr && (other->fastener.kind == Kind::screw || other->fastener.kind == Kind::nut);
 }
 
 BlockedBy FastenerMemo::blocked(const Driven& driven, const tools::Fastener& fastener, bool flipped,

@@ -20,12 +20,14 @@
 
 namespace dismantle::checks {
 
-/// A screw, nut or circlip of the assembly.
+/// A screw, nut or circlip of the assembly, or a pin or bearing that is pressed in.
 struct Driven {
   PartId part = 0;
   tools::Fastener fastener;  ///< as assembled
   std::string size;          ///< "M3x10"; empty: not known
   bool either_side = false;  ///< the tool comes from either end of the axis
+  double height = 0;         ///< mm, along the axis, of what the tool may come to from either end
+  bool pressed = false;      ///< without play in, or on, each of its partners
   /// Parts beside its thread, or inside its hole, the nearest one first: it is driven into one of them, or onto it.
   std::vector<PartId> partners{};
 };
@@ -52,7 +54,7 @@ class FastenerMemo {
 
   bool is_of(const Assembly& assembly) const;
   const Assembly& assembly() const { return assembly_; }
-  /// None: the part is no fastener that a tool drives.
+  /// None: the part is nothing that a tool drives.
   const Driven* driven(PartId part) const;
   /// The fastener as it is driven into `partner`, or onto it: a nut travels along what stands out of it.
   tools::Fastener driven_by(const Driven& driven, std::optional<PartId> partner, bool flipped) const;
@@ -87,6 +89,7 @@ class FastenerMemo {
   std::optional<Driven> look_at(const Part& part) const;
   void find_fastenings() const;
   bool driven_by_thread(PartId part) const;
+  std::optional<Driven> pressed_in(const Part& part, const fasteners::Shape& shape, const PartKind& said) const;
   void find_partners(Driven& driven, const fasteners::Shape& shape) const;
 
   const Assembly& assembly_;

@@ -42,8 +42,9 @@ struct Answer {
   bool reaches() const { return turning.reaches() && (task.held == nullptr || holding.reaches()); }
 };
 
+bool is_turned(const Driven& d) { return d.fastener.kind == Kind::screw || d.fastener.kind == Kind::nut; }
 bool has_drive(const Driven& d) {
-  return d.fastener.kind == Kind::ring || (d.fastener.drive != fasteners::Drive::none && d.fastener.size > 0);
+  return !is_turned(d) || (d.fastener.drive != fasteners::Drive::none && d.fastener.size > 0);
 }
 bool has_size(const Driven& d) { return d.fastener.kind == Kind::ring || (!d.size.empty() && d.size.front() != '?'); }
 
@@ -128,7 +129,7 @@ class Judge {
            {{"reason", why}});
       return;
     }
-    report(driven, answer(driven, partner, other, pose));
+    report(driven, answer(driven, partner, other, pose), partner);
     if (const auto screw = f.kind == Kind::nut ? other : driven.part) {
       look_for_clamped(*screw);
       look_at_pattern(*screw);
@@ -318,7 +319,7 @@ class Judge {
             {"swing", found.access.use->swing}};
   }
 
-  void report(const Driven& driven, const Answer& a) {
+  void report(const Driven& driven, const Answer& a, std::optional<PartId> partner) {
     if (!a.reaches()) return report_blocked(driven, a);
     take_up(a);
     const Driven& turned = *a.task.turned;
@@ -344,6 +345,7 @@ class Judge {
     } else if (a.task.hold_unknown) {
       text += "; how its other end is held was not checked: its drive is not recognised";
     }
+    if (driven.pressed) text += fmt::format("; it has no play in '{}'", name(*partner));
     note("tool", text + ".", driven, std::move(data));
   }
 

@@ -27,15 +27,16 @@ inline std::string listed_names(const std::vector<std::string>& names) {
 }
 
 inline std::string drive_text(const tools::Fastener& f) {
-  if (f.kind == fasteners::Kind::ring) return fmt::format("ring of {:.3g} mm", f.size);
+  if (f.kind != fasteners::Kind::screw && f.kind != fasteners::Kind::nut)
+    return fmt::format("{} of {:.3g} mm", fasteners::to_string(f.kind), f.size);
   return fmt::format("{} {:.4g}", fasteners::to_string(f.drive), std::round(20 * f.size) / 20);
 }
 
 /// "'screw_3' (M3x10, hex socket 2.5)".
 inline std::string label(const std::string& name, const Driven& driven) {
   const std::string drive = drive_text(driven.fastener);
-  return driven.size.empty() ? fmt::format("'{}' ({})", name, drive)
-                             : fmt::format("'{}' ({}, {})", name, driven.size, drive);
+  return driven.size.empty() || driven.pressed ? fmt::format("'{}' ({})", name, drive)
+                                               : fmt::format("'{}' ({}, {})", name, driven.size, drive);
 }
 
 inline std::string use_text(const tools::Tool& tool, const tools::Use& use) {

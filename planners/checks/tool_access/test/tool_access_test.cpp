@@ -306,6 +306,60 @@ TEST(ToolAccess, APatternIsTightenedCrosswise) {
   EXPECT_EQ(judge(ToolAccess(), assembly, screws, {lid_id, base_id}, down).notes.size(), 5u);
 }
 
+/// The parts have no play in each other.
+void press_fit(Assembly& assembly, PartId a, PartId b, const Vector3d& axis) {
+  InitialOverlap overlap;
+  overlap.a = std::min(a, b), overlap.b = std::max(a, b), overlap.depth = 1e-4;
+  overlap.place = OverlapPlace{};
+  overlap.place->contact = ContactClass::uniform_interference;
+  overlap.place->axis = axis;
+  assembly.overlaps.push_back(overlap);
+}
+
+// A pin that is pressed in needs room above it: for a mallet, in a well for a punch, under a roof there is none.
+TEST(ToolAccess, APinIsDrivenIn) {
+  Rng rng(4);
+  for (const char* unit : {"mm", "inch"}) {
+    Scene s;
+    const PartId pin = s.add("pin", shapes::tube(0, 2, -16, 0, 48));
+    const PartId block = s.add("block", shapes::tube(2, 30, -40, 0, 96));
+    const PartId well = s.add("well", wall(8, 30)), roof = s.add("roof", shapes::box({-40, -40, 10}, {40, 40, 14}));
+    const Pose pose = shapes::random_pose(rng, 30);
+    Assembly assembly = s.assembly(pose, rng.uniform(0.01, 2), unit);
+    const Vector3d down = pose.q * -Vector3d::UnitZ();
+    EXPECT_TRUE(judge(ToolAccess(), assembly, {pin}, {block}, down).notes.empty());  // it may slide
+    press_fit(assembly, pin, block, down);
+    StepVerdict v = judge(ToolAccess(), assembly, {pin}, {block}, down);
+    EXPECT_EQ(v.cost, 0);
+    nlohmann::json data = data_of(v, "tool");
+    EXPECT_EQ(data["tool"], "mallet");
+    EXPECT_LT((Vector3d(data["from"][0], data["from"][1], data["from"][2]) + down).norm(), 1e-3);
+    EXPECT_NE(v.notes[0].text.find("(pin of 4 mm)"), std::string::npos) << v.notes[0].text;
+    EXPECT_NE(v.notes[0].text.find("it has no play in 'block'"), std::string::npos) << v.notes[0].text;
+    EXPECT_EQ(data_of(judge(ToolAccess(), assembly, {pin}, {block, well}, down), "tool")["tool"], "punch_and_mallet");
+    v = judge(ToolAccess(), assembly, {pin}, {block, roof}, down);
+    EXPECT_EQ(v.cost, 1);
+    EXPECT_EQ(data_of(v, "blocked")["in_the_way"], nlohmann::json::array({"roof"}));
+    // It comes with the block.
+    EXPECT_TRUE(judge(ToolAccess(), assembly, {pin, block}, {roof}, down).notes.empty());
+  }
+}
+
+TEST(ToolAccess, ABearingDeepInABoreNeedsASleeve) {
+  Scene s;
+  const PartId bearing = s.add("Ball Bearing 8 x 22 x 7", solids::ring(22, 8, 7), {0, 0, -30});
+  const PartId bore = s.add("bore", shapes::tube(11, 40, -50, 0, 96));
+  const PartId shaft = s.add("shaft", shapes::tube(0, 3.9, -60, 10, 48));
+  Assembly assembly = s.assembly();
+  press_fit(assembly, bearing, bore, Vector3d::UnitZ());
+  for (const auto& present : {std::vector<PartId>{bore}, {bore, shaft}}) {
+    const StepVerdict v = judge(ToolAccess(), assembly, {bearing}, present, -Vector3d::UnitZ());
+    EXPECT_EQ(v.cost, 0);
+    const std::string tool = data_of(v, "tool")["tool"];
+    EXPECT_EQ(tool.find("press_sleeve_"), 0u) << tool;
+  }
+}
+
 /// A flat ring with a gap, as a circlip is cut from sheet.
 Mesh circlip(double inner, double outer, double thick) {
   Mesh mesh;
