@@ -1,0 +1,78 @@
+/// Scenes of fasteners for tests, in millimetres.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "dismantle/run_context.h"
+#include "dismantle/testing/shapes.h"
+#include "solids.h"
+#include "tool_access.h"
+
+namespace dismantle::checks::test {
+
+namespace solids = fasteners::test;
+using Eigen::Vector3d;
+
+/// Parts in millimetres, then all of them at a pose, in a unit, at the scale of an assembly.
+struct Scene {
+  std::vector<Mesh> meshes;
+  std::vector<std::string> names;
+  PartId add(const std::string& name, Mesh mesh, const Vector3d& at = Vector3d::Zero()) {
+    for (Vector3d& p : mesh.vertices) p += at;
+    meshes.push_back(std::move(mesh));
+    names.push_back(name);
+    return static_cast<PartId>(meshes.size() - 1);
+  }
+  Assembly assembly(const Pose& pose = {}, double scale = 0.1, const std::string& unit = "mm") const {
+    const double mm = unit == "m" ? 1000 : unit == "inch" ? 25.4 : 1;
+    std::vector<Mesh> placed = meshes;
+    for (Mesh& mesh : placed)
+      for (Vector3d& p : mesh.vertices) p = scale * (pose * p) / mm;
+    Assembly out = shapes::assembly_of(placed);
+    for (std::size_t i = 0; i < names.size(); ++i) out.parts[i].name = names[i];
+    out.unit = unit;
+    out.normalization.scale = scale;
+    return out;
+  }
+};
+
+/// M3x10 with a hexagon socket of 2.5; the seat of its head is z = 0.
+inline Mesh screw() { return solids::screw({3, 10, 5.5, 3, {}, solids::polygon(6, 2.5), 1.5}); }
+/// A plate with a threaded hole, under the head.
+inline Mesh plate() {
+  return solids::turned_solid(
+      {{-12, solids::polygon(4, 60)}, {0, solids::polygon(4, 60)}, {0, solids::circle(3)}, {-12, solids::circle(3)}},
+      144);
+}
+/// A wall around a well of this radius above the plate.
+inline Mesh wall(double radius, double high) {
+  return solids::turned_solid({{0.01, solids::circle(60)},
+                               {high, solids::circle(60)},
+                               {high, solids::circle(2 * radius)},
+                               {0.01, solids::circle(2 * radius)}},
+                              96);
+}
+
+inline StepVerdict judge(const ToolAccess& check, const Assembly& assembly, const std::vector<PartId>& moving,
+                         const std::vector<PartId>& present, const Vector3d& direction,
+                         const StepQuestion* previous = nullptr) {
+  std::vector<PlacedPart> in, there;
+  for (const PartId p : moving) in.push_back({p, Pose{}});
+  for (const PartId p : present) there.push_back({p, Pose{}});
+  StepQuestion question{assembly, in, there, direction};
+  question.previous = previous;
+  return check.judge(question, RunContext{});
+}
+
+inline nlohmann::json data_of(const StepVerdict& v, const std::string& kind) {
+  EXPECT_EQ(v.notes.size(), 1u);
+  if (v.notes.size() != 1) return nlohmann::json::object();
+  EXPECT_EQ(v.notes[0].kind, "tool_access." + kind) << v.notes[0].text;
+  return nlohmann::json::parse(v.notes[0].data);
+}
+
+}  // namespace dismantle::checks::test
