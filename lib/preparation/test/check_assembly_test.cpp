@@ -1,6 +1,7 @@
 // Laws of `dismantle check`: each problem is found at its location and with its depth; nothing else is reported.
 #include "dismantle/preparation/check_assembly.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,9 +56,43 @@ TEST(CheckAssembly, OverlapOfBoxesIsMeasuredAndPlaced) {
     const Eigen::Vector3d at = *overlaps[0].at - shift;
     EXPECT_GE(at.x(), size - depth - 1e-6 * size);
     EXPECT_LE(at.x(), size + 1e-6 * size);
-    const bool deep = depth > 0.01 * (2 * size);
-    EXPECT_EQ(overlaps[0].severity, deep ? Severity::error : Severity::warning)
+    const bool deep = depth > 0.01 * (2 * size), slight = depth <= 0.005 * size;
+    EXPECT_EQ(overlaps[0].severity, deep     ? Severity::error
+                                    : slight ? Severity::note
+                                             : Severity::warning)
         << "depth " << depth << " size " << size;
+  }
+}
+
+/// A row of boxes, each a little in the next.
+TEST(CheckAssembly, SlightOverlapsAreOneLineForPeopleAndAllThereForPrograms) {
+  std::vector<RawPart> row;
+  for (int i = 0; i < 5; ++i)
+    row.push_back(raw_box(fmt::format("box_{}", i), {10 * i - 0.001 * (i + 1), 0, 0}, {10.0 * i + 10, 10, 10}));
+  const AssemblyCheck check = checked(std::move(row));
+  EXPECT_EQ(of_kind(check, FindingKind::overlap).size(), 4u);
+  EXPECT_EQ(check.count(Severity::warning) + check.count(Severity::error), 0u);
+  const std::string brief = findings_text(check, "test", false), whole = findings_text(check, "test", true);
+  EXPECT_NE(brief.find("note: 4 pairs overlap slightly"), std::string::npos) << brief;
+  EXPECT_NE(brief.find("by up to 0.005 ('box_3' and 'box_4')"), std::string::npos) << brief;
+  EXPECT_EQ(brief.find("'box_0'"), std::string::npos) << brief;
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NE(whole.find(fmt::format("'box_{}' and 'box_{}' overlap", i, i + 1)), std::string::npos) << whole;
+  EXPECT_EQ(nlohmann::json::parse(findings_json(check)).at("findings").size(), 4u);
+}
+
+/// With a kind it is a screw without its thread, else something to look at.
+TEST(CheckAssembly, ScrewsWithoutThreadsAreNotes) {
+  for (const char* kind : {"screw", "shaft"}) {
+    RunContext context;
+    PrepareReport report;
+    Assembly assembly =
+        prepare_assembly(samples::make_model("plain_bore_screw", {}).parts, "test", "", {}, context, report);
+    for (Part& part : assembly.parts)
+      if (part.name == "screw") part.kind = PartKind{.kind = kind, .confidence = 1};
+    const auto overlaps = of_kind(check_assembly(assembly, report, kTolerance, context), FindingKind::overlap);
+    ASSERT_EQ(overlaps.size(), 1u);
+    EXPECT_EQ(overlaps[0].severity == Severity::note, std::string(kind) == "screw");
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "check/fastenings.h"
 #include "check/kinds.h"
+#include "check/usual_overlaps.h"
 #include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/verification/contact.h"
 #include "dismantle/verification/interruptible_depth.h"
@@ -190,7 +191,7 @@ class Geometry {
           {name(pairs[i].a), name(pairs[i].b), c.depth / assembly_.normalization.scale, in_input(c.place)});
       const bool overlap = pairs[i].depth > 0;
       if (overlap || c.place.contact == ContactClass::duplicate)
-        check.findings.push_back(finding(check.contacts.back(), c, overlap));
+        check.findings.push_back(finding(pairs[i], check.contacts.back(), c, overlap));
     }
   }
 
@@ -220,7 +221,7 @@ class Geometry {
     return place;
   }
 
-  Finding finding(const CheckedContact& pair, const PairContact& found, bool overlap) const {
+  Finding finding(const InitialOverlap& ids, const CheckedContact& pair, const PairContact& found, bool overlap) const {
     Finding finding;
     finding.kind = FindingKind::overlap;
     finding.parts = {pair.a, pair.b};
@@ -265,6 +266,7 @@ class Geometry {
                               : "nothing, if one of them bends there (clip, spring, seal) or this is rounding; else "
                                 "correct the model";
     }
+    if (finding.kind == FindingKind::overlap) excuse_usual_overlap(assembly_, ids, found, finding);
     return finding;
   }
 

@@ -6,6 +6,7 @@
 
 #include "check/fastenings.h"
 #include "check/kinds.h"
+#include "check/usual_overlaps.h"
 #include "dismantle/preparation/check_assembly.h"
 
 namespace dismantle {
@@ -79,7 +80,14 @@ std::string findings_text(const AssemblyCheck& check, const std::string& source,
   out += contacts_text(check);
   out += kinds_text(check.kinds, verbose);
   out += fastenings_text(check.fastenings);
+  std::map<std::string, std::vector<const Finding*>> together;
+  for (const Finding& f : check.findings)
+    if (!verbose && !f.together.empty()) together[f.together].push_back(&f);
   for (const Finding& f : check.findings) {
+    if (const auto alike = together.find(f.together); alike != together.end() && alike->second.size() > 1) {
+      if (alike->second.front() == &f) out += together_text(alike->second);
+      continue;
+    }
     out += fmt::format("{}: {}", to_string(f.severity), f.message);
     if (f.at) out += fmt::format(", at ({:.6g}, {:.6g}, {:.6g})", f.at->x(), f.at->y(), f.at->z());
     if (!f.picture.empty()) out += fmt::format(", picture {}", f.picture);
@@ -111,6 +119,7 @@ std::string findings_json(const AssemblyCheck& check) {
     if (f.at) item["at"] = {f.at->x(), f.at->y(), f.at->z()};
     if (!f.picture.empty()) item["picture"] = f.picture;
     if (!f.details.empty()) item["details"] = f.details;
+    if (!f.together.empty()) item["together"] = f.together;
     json["findings"].push_back(std::move(item));
   }
   json["contacts"] = nlohmann::ordered_json::array();

@@ -31,11 +31,24 @@ std::vector<CheckedKind> checked_kinds(const Assembly& assembly) {
 std::string kinds_text(const std::vector<CheckedKind>& kinds, bool verbose) {
   std::string out;
   std::size_t others = 0;
+  std::vector<CheckedKind> lines;  // alike but for the reasons
   for (const CheckedKind& k : kinds) {
     if (k.kind.kind == "other") {
       others += k.parts.size();
       continue;
     }
+    const auto same = std::find_if(lines.begin(), lines.end(), [&](const CheckedKind& line) {
+      return !verbose && line.kind.kind == k.kind.kind && line.kind.size == k.kind.size &&
+             line.kind.stated == k.kind.stated;
+    });
+    if (same == lines.end()) {
+      lines.push_back(k);
+      continue;
+    }
+    same->kind.confidence = std::min(same->kind.confidence, k.kind.confidence);
+    same->parts.insert(same->parts.end(), k.parts.begin(), k.parts.end());
+  }
+  for (const CheckedKind& k : lines) {
     out += fmt::format("  {}x {}{}{}, {}: '{}'{}\n", k.parts.size(), k.kind.kind, k.kind.size.empty() ? "" : " ",
                        k.kind.size, k.kind.stated ? "stated" : fmt::format("{:.0f} % sure", 100 * k.kind.confidence),
                        k.parts.front(), k.parts.size() > 1 ? ", ..." : "");

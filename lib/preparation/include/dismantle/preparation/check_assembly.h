@@ -48,6 +48,8 @@ struct Finding {
   std::string picture{};                  ///< file that shows the place; empty: none
   std::optional<ContactClass> contact{};  ///< of two parts that overlap
   std::vector<std::string> details{};     ///< each action that `message` sums up
+  /// Pairs for which this is the same are one line for people: "overlap slightly, as parts without play do".
+  std::string together{};
 };
 
 /// How two parts meet when assembled.
