@@ -90,6 +90,18 @@ TEST(FillHoles, RimsWithinAnotherAreOneHoleWithIslands) {
   }
 }
 
+TEST(FillHoles, ATurnedPartGetsTheSameTriangles) {
+  const Mesh open = plate_without_floor(7, {1, 3, 5});
+  Mesh plain = open;
+  fill_holes(plain, {0.6});
+  Rng rng(3);
+  for (int round = 0; round < 30; ++round) {
+    Mesh turned = moved(open, random_pose(rng, 5));
+    fill_holes(turned, {0.6});
+    EXPECT_EQ(turned.triangles, plain.triangles) << round;
+  }
+}
+
 TEST(FillHoles, RimsOfDifferentSurfacesAreClosedByThemselves) {
   Mesh m = plate_without_floor(7, {});
   append(m, moved(plate_without_floor(3, {}), Pose{{5, 1, 0}, Eigen::Quaterniond(0, 0, 1, 0)}));

@@ -14,6 +14,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Areas this near count as equal, so that a part that is turned gets the same triangles.
+constexpr double kEqualArea = 1e-9;
+
 struct OnEdge {
   double place;  // along the edge, (0, 1)
   std::uint32_t vertex;
@@ -109,7 +112,7 @@ std::vector<Triangle> smallest_surface(const std::vector<Vector3d>& p) {
       double best = std::numeric_limits<double>::infinity();
       for (std::size_t m = i + 1; m < k; ++m) {
         const double a = area[i * n + m] + area[m * n + k] + (p[m] - p[i]).cross(p[k] - p[i]).norm() / 2;
-        if (a < best) {
+        if (a < (1 - kEqualArea) * best || std::isinf(best)) {
           best = a;
           apex[i * n + k] = static_cast<std::uint32_t>(m);
         }

@@ -11,6 +11,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+/// Qualities this near count as equal, so that a part that is turned gets the same triangles.
+constexpr double kEqualQuality = 1e-9;
+
 /// The polygon projected along its mean normal (Newell), counter-clockwise; empty if it has no area.
 std::vector<Vector2d> flatten(std::span<const Vector3d> corners) {
   Vector3d normal = Vector3d::Zero();
@@ -69,7 +72,7 @@ class EarClipper {
       if (!best_of_all) return i;
       const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
       const double quality = longest > 0 ? std::max(area, 0.0) / longest : 0;
-      if (quality > best_quality) {
+      if (quality > best_quality + kEqualQuality) {
         best = i;
         best_quality = quality;
       }

@@ -14,6 +14,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+/// Distances this near count as equal, so that a part that is turned gets the same triangles.
+constexpr double kEqualDistance = 1e-9;
 constexpr double kInOnePlane = 1e-3;  // of the extent of the rim: rounding of coordinates in files
 
 /// A rim and its plane.
@@ -73,7 +75,7 @@ Rim with_islands(const Mesh& mesh, Rim outer, std::vector<Rim> islands) {
       for (std::size_t k = 0; k < outer.size(); ++k)
         for (std::size_t i = 0; i < islands[n].size(); ++i) {
           const double d = (mesh.vertices[outer[k]] - mesh.vertices[islands[n][i]]).squaredNorm();
-          if (d < nearest) nearest = d, island = n, from = k, to = i;
+          if (d < (1 - kEqualDistance) * nearest) nearest = d, island = n, from = k, to = i;
         }
     outer = bridged(outer, from, islands[island], to);
     islands.erase(islands.begin() + static_cast<std::ptrdiff_t>(island));
