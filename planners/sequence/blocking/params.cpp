@@ -64,6 +64,15 @@ void BlockingParams::describe(Schema<BlockingParams>& s) {
   s.advanced("depth_of_rotations", &BlockingParams::depth_of_rotations, {1});
   s.advanced("touched_parts", &BlockingParams::touched_parts, {1});
   s.advanced("cost_octaves", &BlockingParams::cost_octaves, {.min = 0, .min_open = true});
+  s.add(
+      "snap_share", &BlockingParams::snap_share,
+      {.unit = "1",
+       .min = 0,
+       .max = 1,
+       .doc = "A part is held by a snap fit if a straight motion out cuts in by no more than this share of the smaller "
+              "part. It has to bend, so it is searched for to depth 1 only, if parts may be forced (run.force). 0: "
+              "no part."});
+  s.advanced("snap_directions", &BlockingParams::snap_directions, {1, 1000});
   s.advanced("pair_depth", &BlockingParams::pair_depth, {1});
 }
 

@@ -92,6 +92,15 @@ struct PathSearchParams {
   unsigned pair_depth = 64;
 };
 
+/// Parts that a snap fit holds.
+struct SnapParams {
+  /// A part is held by a snap fit if a straight motion cuts in by no more than this share of the diagonal of the smaller
+  /// part, and by less than half a wall. It is searched for to depth 1. Used only if parts may be forced (`run.force`).
+  /// 0: no part.
+  double snap_share = 0.1;
+  unsigned snap_directions = 6;  ///< Largest number of directions that are measured for one part.
+};
+
 }  // namespace blocking
 
 struct BlockingParams : blocking::StraightParams,
@@ -100,7 +109,8 @@ struct BlockingParams : blocking::StraightParams,
                         blocking::PartialTranslationParams,
                         blocking::RotationParams,
                         blocking::SimultaneousMotionParams,
-                        blocking::PathSearchParams {
+                        blocking::PathSearchParams,
+                        blocking::SnapParams {
   PartOrder order = PartOrder::small_first;
   static void describe(Schema<BlockingParams>& s);
 };

@@ -6,8 +6,8 @@
 namespace dismantle::blocking {
 
 PathSearcher::PathSearcher(DisassemblyState& state, SearchHistory& history, const Lookahead& lookahead,
-                           PathOracle& oracle, StraightMotion* straight)
-    : state_(state), history_(history), lookahead_(lookahead), oracle_(oracle), straight_(straight) {}
+                           PathOracle& oracle, StraightMotion* straight, SnapFits& snaps)
+    : state_(state), history_(history), lookahead_(lookahead), oracle_(oracle), straight_(straight), snaps_(snaps) {}
 
 Subassemblies PathSearcher::candidates(const GroupState& group) {
   Subassemblies single;
@@ -40,6 +40,7 @@ bool PathSearcher::search_each(GroupState& group, const Subassemblies& ids, unsi
 }
 
 bool PathSearcher::search(GroupState& group, SubassemblyId id, unsigned depth, const Subassemblies& next) {
+  if (depth != 1 && snaps_.holds(group, id)) depth = 1;
   const Attempt attempt = history_.attempt_for(group, id, depth);
   const PartId part = state_.part_of(id);
   RunContext& context = state_.context();
@@ -65,10 +66,18 @@ bool PathSearcher::search(GroupState& group, SubassemblyId id, unsigned depth, c
     state_.count("searched");
     return true;
   }
+  Outcome outcome = result.outcome();
+  std::string message = result.message;
+  if (const auto snap = outcome == Outcome::depth_limit && depth == 1 ? snaps_.holding(group, id) : std::nullopt) {
+    outcome = Outcome::exhausted;  // not searched deeper
+    state_.count("snap_fits");
+    message += (message.empty() ? "'" : "; '") + state_.assembly().parts[snap->part].name + "' and '" +
+               state_.assembly().parts[snap->other].name + "' snap: a straight motion cuts in by little (" +
+               "sequence_planner.snap_share), so no longer path was searched for";
+  }
   if (!state_.stop() || state_.failure_of(part) == nullptr)
-    state_.set_failure(
-        {part, result.outcome(), result.blocked_by, result.best_pose, result.message, answer.certificate});
-  history_.add(id, {depth, result.outcome(), result.blocked_by, group.members.size()}, result);
+    state_.set_failure({part, outcome, result.blocked_by, result.best_pose, message, answer.certificate});
+  history_.add(id, {depth, outcome, result.blocked_by, group.members.size()}, result);
   return false;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "blocking/lookahead.h"
+#include "blocking/snap_fits.h"
 #include "blocking_graph/straight_motion.h"
 
 namespace dismantle::blocking {
@@ -10,7 +11,7 @@ class PathSearcher {
  public:
   /// `straight`: null when switched off. All must outlive this.
   PathSearcher(DisassemblyState& state, SearchHistory& history, const Lookahead& lookahead, PathOracle& oracle,
-               StraightMotion* straight);
+               StraightMotion* straight, SnapFits& snaps);
 
   /// Single parts that may leave. Parts whose removal would free others come first, because such a success saves many
   /// expensive searches. The housing comes last.
@@ -27,6 +28,7 @@ class PathSearcher {
   const Lookahead& lookahead_;
   PathOracle& oracle_;
   StraightMotion* straight_;
+  SnapFits& snaps_;
 };
 
 }  // namespace dismantle::blocking

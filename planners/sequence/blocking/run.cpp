@@ -30,7 +30,8 @@ Run::Run(const BlockingParams& params, const SequenceQuery& query, PathOracle& o
     state_.add_listener(*straight_);
   }
   lookahead_ = std::make_unique<Lookahead>(state_, history_, oracle);
-  searcher_ = std::make_unique<PathSearcher>(state_, history_, *lookahead_, oracle, straight_.get());
+  snaps_ = std::make_unique<SnapFits>(state_, oracle, straight_.get(), params);
+  searcher_ = std::make_unique<PathSearcher>(state_, history_, *lookahead_, oracle, straight_.get(), *snaps_);
   make_strategies();
 }
 
@@ -47,7 +48,7 @@ void Run::make_strategies() {
   if (straight_ && params_.rotations)
     list_.add(std::make_unique<RotationInPlace>(state_, oracle_, *straight_, *sweep_, params_));
   if (straight_ && params_.simultaneous)
-    list_.add(std::make_unique<SimultaneousMotion>(state_, oracle_, *straight_, *lookahead_, history_, params_,
+    list_.add(std::make_unique<SimultaneousMotion>(state_, oracle_, *straight_, *lookahead_, history_, *snaps_, params_,
                                                    params_.max_depth, params_.play * oracle_.tolerance()));
   list_.add(std::make_unique<PathSearch>(state_, history_, *searcher_, params_));
   list_.add(std::make_unique<PairSearch>(state_, history_, *searcher_, *lookahead_, params_));

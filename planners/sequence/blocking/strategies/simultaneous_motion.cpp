@@ -17,13 +17,14 @@ double travel(const Mesh& mesh, const Pose& from, const Pose& to) {
 }  // namespace
 
 SimultaneousMotion::SimultaneousMotion(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight,
-                                       const Lookahead& lookahead, const SearchHistory& history,
+                                       const Lookahead& lookahead, const SearchHistory& history, SnapFits& snaps,
                                        const SimultaneousMotionParams& params, unsigned max_depth, double play)
     : state_(state),
       oracle_(oracle),
       straight_(straight),
       lookahead_(lookahead),
       history_(history),
+      snaps_(snaps),
       params_(params),
       play_(play),
       max_depth_(max_depth) {}
@@ -103,7 +104,9 @@ std::optional<Attempt> SimultaneousMotion::attempt_for(const GroupState& group, 
 }
 
 /// As for single parts, a search is repeated when a part that it touched has left; deeper only if several parts moved.
-bool SimultaneousMotion::is_worthwhile(const GroupState& group, const Subassemblies& ids, unsigned round) const {
+/// Parts that snap fits hold leave one by one.
+bool SimultaneousMotion::is_worthwhile(const GroupState& group, const Subassemblies& ids, unsigned round) {
+  if (std::all_of(ids.begin(), ids.end(), [&](SubassemblyId s) { return snaps_.holds(group, s); })) return false;
   const auto known = last_.find(ids);
   if (known == last_.end()) return true;
   const PastMotion& last = known->second;

@@ -10,6 +10,7 @@
 #include "blocking/lookahead.h"
 #include "blocking/params.h"
 #include "blocking/search_history.h"
+#include "blocking/snap_fits.h"
 #include "blocking_graph/straight_motion.h"
 #include "blocking_graph/strategy.h"
 
@@ -22,8 +23,8 @@ class SimultaneousMotion final : public Strategy {
  public:
   /// `play`: a part that has moved by less does not count as moved; assembly units.
   SimultaneousMotion(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight, const Lookahead& lookahead,
-                     const SearchHistory& history, const SimultaneousMotionParams& params, unsigned max_depth,
-                     double play);
+                     const SearchHistory& history, SnapFits& snaps, const SimultaneousMotionParams& params,
+                     unsigned max_depth, double play);
   std::string_view name() const noexcept override { return "simultaneous_motion"; }
   Cost cost() const noexcept override { return Cost::limited_search; }
   Result apply(GroupState& group) override;
@@ -45,7 +46,7 @@ class SimultaneousMotion final : public Strategy {
   std::vector<Subassemblies> candidate_sets(const GroupState& group);
   unsigned depth_of(unsigned round) const;
   std::optional<Attempt> attempt_for(const GroupState& group, const Subassemblies& ids, unsigned round) const;
-  bool is_worthwhile(const GroupState& group, const Subassemblies& ids, unsigned round) const;
+  bool is_worthwhile(const GroupState& group, const Subassemblies& ids, unsigned round);
   bool can_afford(const GroupState& group) const;
   bool move(GroupState& group, const std::vector<Subassemblies>& sets, std::size_t k, unsigned round);
   bool several_moved(const Attempt& attempt, const std::vector<Pose>& reached) const;
@@ -55,6 +56,7 @@ class SimultaneousMotion final : public Strategy {
   StraightMotion& straight_;
   const Lookahead& lookahead_;
   const SearchHistory& history_;
+  SnapFits& snaps_;
   const SimultaneousMotionParams& params_;
   double play_;
   unsigned max_depth_;

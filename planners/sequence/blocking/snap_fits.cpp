@@ -1,0 +1,84 @@
+#include "blocking/snap_fits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dismantle/geometry/mesh_measure.h"
+
+namespace dismantle::blocking {
+
+std::optional<MotionDepth> SnapFits::holding(const GroupState& group, SubassemblyId id) {
+  std::optional<MotionDepth> own = alone(group, id);
+  if (own || group.is_pair()) return own;
+  // What holds nothing but parts of snap fits is free when they are off: a plate with wheels, a torso with arms.
+  std::optional<MotionDepth> deepest;
+  for (const SubassemblyId other : state_.others(group, {id})) {
+    std::optional<MotionDepth> snap = alone(group, other);
+    if (!snap) return std::nullopt;
+    if (!deepest || snap->excess() > deepest->excess()) deepest = std::move(snap);
+  }
+  return deepest;
+}
+
+std::optional<MotionDepth> SnapFits::alone(const GroupState& group, SubassemblyId id) {
+  if (!(params_.snap_share > 0) || straight_ == nullptr || oracle_.forcing() == nullptr || !state_.is_single(id) ||
+      state_.subassemblies() < 3)
+    return std::nullopt;
+  if (arrangement_ != state_.arrangement()) known_.clear();
+  arrangement_ = state_.arrangement();
+  const std::pair key(id, group.members);
+  if (const auto known = known_.find(key); known != known_.end()) return known->second;
+  std::optional<MotionDepth> found = measure(group, id);
+  if (state_.context().should_stop()) return std::nullopt;
+  return known_.emplace(key, std::move(found)).first->second;
+}
+
+/// A part that goes through a wall is half of the wall deep in it. A wall of thickness t has a volume of t / 2 times
+/// its surface, so half of it is V / A; of a wire, V / A is half of its radius.
+double SnapFits::deepest_snap(PartId part, PartId other) const {
+  const auto diagonal = [&](PartId p) { return state_.assembly().parts[p].mesh->box().size().norm(); };
+  const auto half_wall = [&](PartId p) {
+    const Part& of = state_.assembly().parts[p];
+    return std::abs(of.volume) / surface_area(*of.mesh);
+  };
+  return std::min(params_.snap_share * std::min(diagonal(part), diagonal(other)),
+                  std::max(half_wall(part), half_wall(other)));
+}
+
+/// Along the directions with the fewest blockers, which are those of the mating feature: studs, axles, clips.
+std::optional<MotionDepth> SnapFits::measure(const GroupState& group, SubassemblyId id) {
+  std::vector<std::pair<std::size_t, Subassemblies>> blocked;
+  for (const std::size_t d : straight_->directions_of(group, id)) {
+    blocked.emplace_back(d, straight_->blockers(group, id, d));
+    if (state_.context().should_stop()) return std::nullopt;
+  }
+  std::stable_sort(blocked.begin(), blocked.end(),
+                   [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
+  if (blocked.size() > params_.snap_directions) blocked.resize(params_.snap_directions);
+  for (const auto& [direction, blockers] : blocked)
+    if (auto found = along(group, id, direction, blockers)) return found;
+  return std::nullopt;
+}
+
+std::optional<MotionDepth> SnapFits::along(const GroupState& group, SubassemblyId id, std::size_t direction,
+                                           const Subassemblies& blockers) {
+  const PartId part = state_.part_of(id);
+  const Pose& begin = state_.pose(part);
+  const double length = straight_->length_out(group, {id}, direction);
+  const Pose end{begin.t + length * straight_->directions().all[direction], begin.q};
+  std::optional<MotionDepth> worst;
+  for (const PartId other : state_.parts_of(blockers)) {
+    MotionDepthOptions options;
+    options.stop_above = deepest_snap(part, other);
+    options.absolute = 0.1 * options.stop_above;
+    options.known_invalid = true;
+    const std::optional<MotionDepth> cut =
+        oracle_.forcing()->depth({part}, {{other, state_.pose(other)}}, {{begin}, {end}}, options, state_.context());
+    if (!cut || state_.context().should_stop()) continue;
+    if (cut->excess() > options.stop_above) return std::nullopt;
+    if (!worst || cut->excess() > worst->excess()) worst = cut;
+  }
+  return worst;
+}
+
+}  // namespace dismantle::blocking

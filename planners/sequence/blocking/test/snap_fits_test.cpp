@@ -1,0 +1,59 @@
+// Parts that a snap fit holds are not searched for deeply where they may be forced.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "run_blocking.h"
+
+namespace dismantle {
+namespace {
+
+/// A block in a case, under a lip on all four sides that covers its rim, and a box beside them.
+Assembly clipped(double lip, bool with_box = true) {
+  Mesh made = shapes::box({-2, -2, -1}, {2, 2, 0});
+  for (const auto& [z0, z1, inner] : {std::tuple(0.0, 1.0, 1.0), std::tuple(1.0, 1.4, 1 - lip)}) {
+    made = shapes::joined(made, shapes::box({-2, -2, z0}, {-inner, 2, z1}));
+    made = shapes::joined(made, shapes::box({inner, -2, z0}, {2, 2, z1}));
+    made = shapes::joined(made, shapes::box({-inner, -2, z0}, {inner, -inner, z1}));
+    made = shapes::joined(made, shapes::box({-inner, inner, z0}, {inner, 2, z1}));
+  }
+  std::vector<Mesh> parts{made, shapes::box({-1, -1, 0}, {1, 1, 1})};
+  if (with_box) parts.push_back(shapes::box({2, -2, -1}, {3, 2, 0}));
+  return shapes::assembly_of(parts);
+}
+
+/// Deepest search for each part.
+std::map<PartId, unsigned> deepest_searches(const Assembly& assembly, ForceWhen force) {
+  std::map<PartId, unsigned> deepest;
+  const auto search = [&](const PathQuery& query, RunContext& context) {
+    const unsigned depth = query.budget.max_depth == 0 ? 1000 : query.budget.max_depth;
+    unsigned& most = deepest[query.scene.moving.front().part];
+    most = std::max(most, depth);
+    return fake::shallow(query, context);
+  };
+  RunOptions options;
+  options.force = force;
+  fake::take_apart(assembly, 1, options, search);
+  return deepest;
+}
+
+unsigned most_of(const std::map<PartId, unsigned>& searches) {
+  unsigned most = 0;
+  for (const auto& [part, depth] : searches) most = std::max(most, depth);
+  return most;
+}
+
+TEST(SnapFits, AreSearchedForToDepthOneIfPartsMayBeForced) {
+  EXPECT_EQ(most_of(deepest_searches(clipped(0.1), ForceWhen::last_resort)), 1u);
+  EXPECT_GT(most_of(deepest_searches(clipped(0.1), ForceWhen::off)), 1u);
+}
+
+TEST(SnapFits, AreNoDeepCuts) { EXPECT_GT(most_of(deepest_searches(clipped(0.8), ForceWhen::last_resort)), 1u); }
+
+TEST(SnapFits, DoNotCountInAnAssemblyOfTwoParts) {
+  EXPECT_GT(most_of(deepest_searches(clipped(0.1, false), ForceWhen::last_resort)), 1u);
+}
+
+}  // namespace
+}  // namespace dismantle
