@@ -86,8 +86,7 @@ class Walk {
   /// Adds all parts of a model; returns their indices.
   std::vector<std::uint32_t> model(const std::string& key, const LdrawFile& file, const Place& place) {
     if (context_.should_stop()) throw Error("stopped while reading LDraw files");
-    if (!open_.insert(key).second || open_.size() > kDeepest)
-      throw InputError(key, "this model refers to itself");
+    if (!open_.insert(key).second || open_.size() > kDeepest) throw InputError(key, "this model refers to itself");
     std::vector<std::uint32_t> all, step_parts;
     unsigned step = 1;
     Eigen::Matrix3d view = Eigen::Matrix3d::Identity();
@@ -104,6 +103,10 @@ class Walk {
     };
     for (std::size_t i = 0; i < file.references.size(); ++i) {
       finish_steps(i);
+      if (is_repeated(file, i)) {
+        add_repeated(file.references[i], place);
+        continue;
+      }
       const std::vector<std::uint32_t> added = reference(file.references[i], place);
       step_parts.insert(step_parts.end(), added.begin(), added.end());
       all.insert(all.end(), added.begin(), added.end());
@@ -146,6 +149,29 @@ class Walk {
     inner.parents.push_back(r.name);
     inner.instances.push_back(inner.group);
     return model(r.name, *found->file, inner);
+  }
+
+  /// Is the line written a second time: the same part in the same place, of the same model?
+  bool is_repeated(const LdrawFile& file, std::size_t line) {
+    const Reference& r = file.references[line];
+    const bool repeated =
+        std::any_of(file.references.begin(), file.references.begin() + static_cast<std::ptrdiff_t>(line),
+                    [&](const Reference& earlier) {
+                      return earlier.name == r.name && earlier.placement.linear == r.placement.linear &&
+                             earlier.placement.shift == r.placement.shift;
+                    });
+    if (!repeated) return false;
+    const std::optional<Found> found = library_.find(r.name);
+    return found && is_part(r.name, *found);
+  }
+
+  /// Two parts cannot be in one place, so the line is a slip of the author, and the part is there once.
+  void add_repeated(const Reference& r, const Place& place) {
+    const std::string& description = library_.find(r.name)->file->description;
+    RawPart part = raw(description.empty() ? r.name : description, place, r.name);
+    part.problem = "the model has the same line twice: the same part in the same place";
+    part.by_meaning = true;
+    push(std::move(part));
   }
 
   std::uint32_t add_part(const std::string& key, const Found& found, const Place& place) {

@@ -67,6 +67,20 @@ TEST_F(Ldraw, PartsHaveTheirPlaceSizeAndColour) {
   EXPECT_NEAR(signed_volume(parts[1].mesh), 2 * 8 * 4 * 9.6, 1e-9);
 }
 
+TEST_F(Ldraw, ALineThatIsWrittenTwiceIsOnePart) {
+  const std::string line = "1 4 0 0 0 1 0 0 0 1 0 0 0 1 brick.dat\n", other = "1 4 0 0 0 1 0 0 0 1 0 0 0 -1 brick.dat\n";
+  const std::string model = "0 Tower\n" + line + "0 STEP\n" + line + other + "0 STEP\n";
+  const auto parts = read(model);
+  ASSERT_EQ(parts.size(), 3u) << "nothing is left away in silence";
+  EXPECT_TRUE(parts[0].problem.empty());
+  EXPECT_TRUE(parts[1].by_meaning);
+  EXPECT_NE(parts[1].problem.find("same line twice"), std::string::npos);
+  EXPECT_TRUE(parts[2].problem.empty()) << "mirrored: another part";
+  const auto steps = order(model);
+  ASSERT_EQ(steps.size(), 2u);
+  EXPECT_EQ(steps[1].parts, (std::vector<std::uint32_t>{2}));
+}
+
 /// Mirrored placements, INVERTNEXT and clockwise files: the outside stays outside.
 TEST_F(Ldraw, TheOutsideStaysOutside) {
   write("library/parts/clockwise.dat", "0 Clockwise\n0 !LDRAW_ORG Part\n0 BFC CERTIFY CW\n" + box(20, 24, 10));
