@@ -22,7 +22,7 @@ std::optional<MotionDepth> SnapFits::holding(const GroupState& group, Subassembl
 
 std::optional<MotionDepth> SnapFits::alone(const GroupState& group, SubassemblyId id) {
   if (!(params_.snap_share > 0) || straight_ == nullptr || oracle_.forcing() == nullptr || !state_.is_single(id) ||
-      state_.subassemblies() < 3)
+      state_.assembly().parts.size() < 3)
     return std::nullopt;
   if (arrangement_ != state_.arrangement()) known_.clear();
   arrangement_ = state_.arrangement();
