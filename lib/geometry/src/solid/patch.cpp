@@ -56,9 +56,10 @@ Corners moved_along(const Patch& patch, const Vec3& direction, double depth) {
 
 Escape escape_at(const Vec3& point, const Solid& solid) {
   const ClosestPoint c = solid.bvh.closest(point);
+  // On the surface the difference has no direction. Which side the point is on does not matter, and where surfaces
+  // touch along edges no ray tells.
+  if (c.distance <= kRounding * point.cwiseAbs().maxCoeff()) return {c.distance, solid.normals[c.triangle]};
   const bool inside = solid.bvh.inside(point);
-  if (c.distance <= kRounding * point.cwiseAbs().maxCoeff())  // on the surface: the difference has no direction
-    return {inside ? c.distance : -c.distance, solid.normals[c.triangle]};
   return {inside ? c.distance : -c.distance, (inside ? Vec3(c.point - point) : Vec3(point - c.point)) / c.distance};
 }
 
