@@ -209,6 +209,27 @@ TEST(MotionWords, AScrewIsMeasuredOnItsAxis) {
   EXPECT_EQ(point_on_axis({Pose{}, Pose{{1, 2, 3}, Pose{}.q}}, {4, 5, 6}), Eigen::Vector3d(4, 5, 6));
 }
 
+/// The slides of a puzzle are all told, at any orientation; a bent path with as many legs is not.
+TEST(MotionWords, SlidesAreToldOneByOne) {
+  Rng rng(5);
+  for (const bool slides : {true, false})
+    for (int trial = 0; trial < 10; ++trial) {
+      const Eigen::Quaterniond turned =
+          Eigen::Quaterniond(rng.normal(), rng.normal(), rng.normal(), rng.normal()).normalized();
+      std::vector<Pose> poses{Pose{}};
+      const int legs = 7;
+      for (int k = 0; k < legs; ++k) {
+        Eigen::Vector3d leg = (1 + k) * Eigen::Vector3d::Unit(k % 3);
+        if (!slides) leg[(k + 1) % 3] = 0.5 * k;
+        poses.push_back({poses.back().t + turned * leg, Pose{}.q});
+      }
+      const std::string words = motion_words(summarize_motion(poses, {0, 0, 0}, 1e-3), "mm", false);
+      std::size_t told = 1;
+      for (std::size_t at = words.find(", then "); at != std::string::npos; at = words.find(", then ", at + 1)) ++told;
+      EXPECT_EQ(told, slides ? legs : 1) << words;
+    }
+}
+
 TEST(MotionWords, DirectionsAreThoseOfSomeoneBeforeTheAssembly) {
   EXPECT_EQ(direction_words({0, 0, 2}, false), "up (+Z)");
   EXPECT_EQ(direction_words({0, 2, 0}, true), "up (+Y)");

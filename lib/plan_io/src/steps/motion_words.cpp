@@ -42,6 +42,19 @@ std::string turn_words(double turn) {
   return fmt::format("{:.0f}°", degrees);
 }
 
+/// Is the motion a list of straight slides, each along one of three orthogonal axes, as in a puzzle?
+bool is_of_slides(const MotionSummary& motion) {
+  constexpr std::size_t kMostSlides = 40;
+  if (motion.legs.size() > kMostSlides || motion.turn * 180 / std::numbers::pi >= kTurned) return false;
+  const double across = std::sin(std::acos(kOneAxis));
+  return std::all_of(motion.legs.begin(), motion.legs.end(), [&](const Eigen::Vector3d& a) {
+    return std::all_of(motion.legs.begin(), motion.legs.end(), [&](const Eigen::Vector3d& b) {
+      const double cosine = std::abs(a.normalized().dot(b.normalized()));
+      return cosine > kOneAxis || cosine < across;
+    });
+  });
+}
+
 }  // namespace
 
 Eigen::Vector3d point_on_axis(const std::vector<Pose>& poses, const Eigen::Vector3d& near) {
@@ -151,7 +164,7 @@ std::string motion_words(const MotionSummary& motion, const std::string& unit, b
                          const Eigen::Quaterniond& lies) {
   const std::string of_unit = unit.empty() ? "" : " " + unit;
   std::string out;
-  if (motion.legs.size() > 4) {
+  if (motion.legs.size() > 4 && !is_of_slides(motion)) {
     out = fmt::format("along its path, {}{} in all", figure_text(motion.length), of_unit);
     if (motion.displacement.norm() > 1e-3 * motion.length)
       out += fmt::format(", to a place {}{} {}", figure_text(motion.displacement.norm()), of_unit,

@@ -50,8 +50,9 @@ DISMANTLE_API std::string direction_words(const Eigen::Vector3d& direction, bool
 /// "upside down", "on its left side (+X up)": how an assembly lies whose direction `up` (unit) points upwards.
 DISMANTLE_API std::string lie_words(const Eigen::Vector3d& up, bool y_up);
 
-/// "40 mm down (-Z), then 3 mm left (-X)", "15 mm down (-Z), turning clockwise by 5 turns": one phrase. Clockwise is
-/// seen along the motion, or along the axis that is named. `unit` may be empty.
+/// "40 mm down (-Z), then 3 mm left (-X)", "15 mm down (-Z), turning clockwise by 5 turns": one phrase. All slides
+/// along three orthogonal axes are told, of other motions up to four legs. Clockwise is seen along the motion, or along
+/// the axis that is named. `unit` may be empty.
 DISMANTLE_API std::string motion_words(const MotionSummary& motion, const std::string& unit, bool y_up,
                                        const Eigen::Quaterniond& lies = Eigen::Quaterniond::Identity());
 
