@@ -10,14 +10,14 @@ void Report::add_left(const GroupState& group, const std::string& notes) {
   if (group.members.size() <= 1 || state_.target_removed()) return;
   for (const PartId part : parts) {
     if (state_.is_inseparable(state_.subassembly_of(part))) continue;  // add_inseparable() reports it
-    Unsolved reason = reason_for(group, part);
+    Unsolved reason = reason_for(group, part, !notes.empty());
     if (reason.certificate == nullptr) reason.certificate = group.proof;
     if (!notes.empty()) reason.message += (reason.message.empty() ? "" : "; ") + notes;
     unsolved_.push_back(std::move(reason));
   }
 }
 
-Unsolved Report::reason_for(const GroupState& group, PartId part) const {
+Unsolved Report::reason_for(const GroupState& group, PartId part, bool tried) const {
   if (const Unsolved* failure = state_.failure_of(part)) {
     Unsolved reason = *failure;
     std::erase_if(reason.blocked_by, [&](PartId b) { return !group.contains(state_.subassembly_of(b)); });
@@ -27,7 +27,8 @@ Unsolved Report::reason_for(const GroupState& group, PartId part) const {
   reason.part = part;
   if (state_.interrupted()) {
     reason.outcome = state_.context().cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
-    reason.message = "not tried: stopped before its turn";
+    reason.message = tried ? "the whole run was stopped before a path of it alone was searched for"
+                           : "not tried: stopped before its turn";
   } else {
     reason.message = state_.may_leave(group, {state_.subassembly_of(part)}) ? "no straight path, and no search was made"
                                                                             : "the constraints hold it back";

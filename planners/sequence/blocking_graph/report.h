@@ -20,7 +20,7 @@ class Report {
   SequenceResult finish() const;
 
  private:
-  Unsolved reason_for(const GroupState& group, PartId part) const;
+  Unsolved reason_for(const GroupState& group, PartId part, bool tried) const;
   Unsolved proof_for(SubassemblyId id, PartId part) const;
   Outcome outcome() const;
 

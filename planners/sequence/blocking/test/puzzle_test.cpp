@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +16,7 @@ namespace dismantle::blocking {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
+using Cell2 = std::array<int, 2>;
 
 /// Pieces of random cells that hold each other, and take several moves to the first separation.
 struct Puzzle {
@@ -89,6 +92,33 @@ TEST(Puzzles, ComeApartInTheLeastNumberOfMoves) {
     EXPECT_EQ(moves_to_first_separation(result.plan), *puzzle.truth.moves) << trial;
     EXPECT_FALSE(result.plan.disassembly.empty());
   }
+}
+
+/// A run that is stopped after the search over arrangements spent its budget says what was visited, and what waits.
+TEST(Puzzles, AStoppedRunSaysHowManyArrangementsWait) {
+  // Four cubes that change places in a closed frame.
+  std::vector<voxels::Piece> pieces(1);
+  for (int x = -1; x < 5; ++x)
+    for (int y = -1; y < 5; ++y)
+      for (int z = -1; z < 2; ++z)
+        if (x < 0 || y < 0 || z != 0 || x > 3 || y > 3) pieces[0].push_back({x, y, z});
+  for (const Cell2& at : {Cell2{0, 0}, Cell2{2, 0}, Cell2{0, 2}, Cell2{2, 3}}) pieces.push_back({{at[0], at[1], 0}});
+  const Assembly assembly = assembly_of(pieces, Pose{}, Vec3::Ones());
+  BlockingParams params;
+  params.translation_states = 50;
+  params.rotations = params.simultaneous = false;
+  const auto stops = [](const PathQuery&, RunContext& context) {
+    context.cancel.cancel();
+    return fake::outcome(Outcome::cancelled);
+  };
+  RunContext run_context;
+  const RunResult result = run(assembly, fake::setup(stops, std::make_shared<Blocking>(params)), {}, run_context);
+  int said = 0;
+  for (const PlanUnsolved& u : result.plan.unsolved) {
+    EXPECT_EQ(u.message.find("not tried"), std::string::npos) << u.message;
+    said += u.message.find("after 50 arrangements, ") != std::string::npos ? 1 : 0;
+  }
+  EXPECT_EQ(said, 5);
 }
 
 TEST(Puzzles, ComeApartIfTheirOutsideIsRound) {
