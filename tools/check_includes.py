@@ -37,7 +37,7 @@ ALLOWED = {
     "lib/engine": BELOW_ENGINE,
     "plugins/sdk": {"lib/geometry"},
     "plugins/host": BELOW_ENGINE | {"lib/engine", "plugins/sdk"},
-    "lib/session": BELOW_ENGINE | {"lib/engine", "plugins/sdk", "plugins/host"},
+    "lib/session": BELOW_ENGINE | {"lib/statics", "lib/engine", "plugins/sdk", "plugins/host"},
     "plugins/testing": BELOW_ENGINE | {"lib/engine", "lib/samples", "plugins/sdk", "plugins/host"},
     "lib/bench": BELOW_ENGINE | {"lib/orders", "lib/process", "lib/engine", "lib/samples", "lib/session", "plugins/sdk", "plugins/host"},
     "apps": BELOW_ENGINE | {"lib/statics", "lib/ordering", "lib/process", "lib/serve", "lib/book", "lib/orders", "lib/engine", "lib/samples", "lib/session", "lib/bench", "plugins/sdk", "plugins/host"},

@@ -12,6 +12,7 @@
 #include "dismantle/plan_io/read_file.h"
 #include "dismantle/preparation/assembly_of_plan.h"
 #include "dismantle/session/session.h"
+#include "hold_proofs.h"
 #include "importers.h"
 #include "with_numbers.h"
 
@@ -124,6 +125,7 @@ PlanCheck Session::verify(const Plan& plan, const Assembly& assembly, const std:
                                                r.weld, r.repair, r.max_hole));
   PlanCheck check = check_plan(plan, assembly, options, context, prover_of_kind(*registry_));
   judge_again(check, plan, assembly, check_of_type(*registry_), context);
+  check_hold_proofs(check, plan, assembly, context);
   return check;
 }
 

@@ -135,4 +135,29 @@ std::string check_fall(const Pile& pile, const Motions& motion) {
   return "";
 }
 
+ContactForces spring_forces(const Pile& pile, const Motions& displacement) {
+  ContactForces forces;
+  if (displacement.size() != pile.bodies.size()) return forces;
+  for (const Contact& c : pile.contacts) {
+    const Body &a = pile.bodies[c.a], &b = pile.bodies[c.b];
+    const double stiffness = a.fixed && b.fixed ? 0
+                             : a.fixed          ? b.weight
+                             : b.fixed          ? a.weight
+                                                : std::min(a.weight, b.weight);
+    auto& at = forces.emplace_back();
+    for (const Vec3& p : c.points) {
+      const Vec3 elastic = -stiffness * relative(pile, c, p, displacement);
+      const double normal = elastic.dot(c.normal);
+      const Vec3 along = elastic - normal * c.normal;
+      if (c.bonded || (normal >= 0 && along.norm() <= c.friction * normal)) {
+        at.push_back(elastic);
+        continue;
+      }
+      const double press = (normal + c.friction * along.norm()) / (1 + c.friction * c.friction);
+      at.push_back(press > 0 ? Vec3(press * (c.normal + c.friction * along.stableNormalized())) : Vec3(Vec3::Zero()));
+    }
+  }
+  return forces;
+}
+
 }  // namespace dismantle::statics

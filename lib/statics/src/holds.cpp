@@ -132,6 +132,7 @@ class Search {
       if (found.verdict == Verdict::stands) {
         result_.found = true;
         result_.forces = std::move(found.forces);
+        result_.displacement = std::move(found.displacement);
         result_.proved = std::all_of(result_.groups.begin(), result_.groups.end(),
                                      [](const HoldGroup& g) { return !g.motion.empty(); });
         return std::move(result_);

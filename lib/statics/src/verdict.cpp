@@ -26,7 +26,7 @@ std::string_view to_string(Verdict verdict) {
 Judgement judge_forces(const Pile& pile, const std::function<bool()>& stop) {
   Balance any = balance(pile, FrictionLaw::associated, stop);
   if (any.balanced && check_equilibrium(pile, any.forces).empty())
-    return {Verdict::stands, std::move(any.forces), {}, {}};
+    return {Verdict::stands, std::move(any.forces), std::move(any.displacement), {}};
   if (!any.balanced && check_fall(pile, any.falling).empty()) return {Verdict::falls, {}, {}, std::move(any.falling)};
   return {};
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 
 #include "dismantle/part_set.h"
 #include "dismantle/statics/describe.h"
+#include "dismantle/statics/step_proof.h"
 
 namespace dismantle::checks {
 
@@ -21,33 +21,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Vec3 = Eigen::Vector3d;
 using statics::Gaps;
+using statics::joined;
 
-constexpr double kPush = 2;         // times its weight: what a hand presses a part in with
-constexpr double kSameUp = 1e-9;    // 1 - cosine
-constexpr double kOverturn = -0.7;  // cosine: over two sides
-
-std::vector<std::string> words_of(const std::string& text) {
-  std::vector<std::string> words;
-  for (std::size_t from = 0; from <= text.size();) {
-    const std::size_t to = std::min(text.find(',', from), text.size());
-    const std::size_t first = text.find_first_not_of(' ', from),
-                      last = text.find_last_not_of(' ', to == 0 ? 0 : to - 1);
-    if (first < to && last != std::string::npos && last >= first) words.push_back(text.substr(first, last - first + 1));
-    from = to + 1;
-  }
-  return words;
-}
-
-bool matches(const std::string& name, const std::string& pattern) {
-  return name == pattern || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
-}
-
-std::vector<PlacedPart> joined(std::span<const PlacedPart> a, std::span<const PlacedPart> b) {
-  std::vector<PlacedPart> all(a.begin(), a.end());
-  all.insert(all.end(), b.begin(), b.end());
-  std::sort(all.begin(), all.end(), [](const PlacedPart& x, const PlacedPart& y) { return x.part < y.part; });
-  return all;
-}
+constexpr double kSameUp = 1e-9;  // 1 - cosine
 
 std::string quoted(const Assembly& assembly, PartId part) { return "'" + assembly.parts[part].name + "'"; }
 
@@ -62,12 +38,6 @@ double rounded(double value) {
   if (!(value > 0)) return 0;
   const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
   return std::stod(fmt::format("{:.3g}", std::round(value / unit) * unit));
-}
-
-/// An orientation halfway between two; over one side, always the same one, if they are opposite.
-Vec3 halfway(const Vec3& a, const Vec3& b) {
-  const Vec3 sum = a + b;
-  return a.dot(b) < kOverturn ? Vec3(a.unitOrthogonal()) : Vec3(sum.normalized());
 }
 
 }  // namespace
@@ -89,36 +59,14 @@ void GravityParams::describe(Schema<GravityParams>& s) {
   s.advanced("most_parts", &GravityParams::most_parts, {1, 100000});
 }
 
-Gravity::Gravity(const GravityParams& params) : params_(params), fixed_(words_of(params.fixed)) {
-  for (const std::string& word : words_of(params.density)) {
-    const std::size_t at = word.rfind('=');
-    std::size_t used = 0;
-    double value = 0;
-    if (at != std::string::npos && at > 0 && at + 1 < word.size()) try {
-        value = std::stod(word.substr(at + 1), &used);
-      } catch (const std::exception&) {
-        used = 0;
-      }
-    if (used == 0 || used != word.size() - at - 1 || !(value > 0) || !std::isfinite(value))
-      throw std::invalid_argument("density: write NAME=G_PER_CM3 with a number above 0 instead of '" + word + "'");
-    density_.emplace_back(word.substr(0, word.find_last_not_of(' ', at - 1) + 1), value);
-  }
-}
+Gravity::Gravity(const GravityParams& params)
+    : params_(params), model_(params.fixed, params.friction, params.density) {}
 
 std::shared_ptr<Gravity::Scene> Gravity::scene_of(const Assembly& assembly) const {
   const std::lock_guard lock(mutex_);
   if (scene_ && scene_->piles->is_of(assembly)) return scene_;
-  statics::StabilityOptions options;
-  options.friction = params_.friction;
-  for (const Part& part : assembly.parts) {
-    options.fixed.push_back(std::any_of(fixed_.begin(), fixed_.end(),
-                                        [&](const std::string& pattern) { return matches(part.name, pattern); }));
-    options.density.push_back(part.density.value_or(1));
-    for (const auto& [pattern, value] : density_)
-      if (matches(part.name, pattern)) options.density.back() = value;
-  }
   scene_ = std::make_shared<Scene>();
-  scene_->piles = std::make_unique<const statics::BuiltPiles>(assembly, std::move(options));
+  scene_->piles = std::make_unique<const statics::BuiltPiles>(assembly, model_.options(assembly));
   return scene_;
 }
 
@@ -128,6 +76,11 @@ Gravity::State Gravity::holds_of(Scene& scene, const statics::BuiltPile& built, 
   State state;
   state.found = holds.found;
   state.proved = holds.proved;
+  if (holds.found && holds.proved) {
+    statics::HoldProof proof{holds.held, holds.displacement, {}};
+    for (const statics::HoldGroup& group : holds.groups) proof.falls.push_back(group.motion);
+    statics::add_hold_proof(proof, built.pile, "", state.numbers);
+  }
   if (holds.held.empty()) return state;
   const statics::ContactForces& forces = holds.forces;
   const std::vector<statics::Contact>& contacts = built.pile.contacts;
@@ -166,10 +119,15 @@ Gravity::State Gravity::at_rest(Scene& scene, const Assembly& assembly, std::spa
     const std::lock_guard lock(mutex_);
     if (const auto known = scene.known.find(key); known != scene.known.end()) return known->second;
   }
-  const auto balanced = [&](Gaps gaps) {
-    return statics::judge_forces(scene.piles->pile(parts, up, gaps, table).pile).verdict == statics::Verdict::stands;
-  };
   State state;
+  const auto balanced = [&](Gaps gaps) {
+    const statics::Pile pile = scene.piles->pile(parts, up, gaps, table).pile;
+    statics::Judgement found = statics::judge_forces(pile);
+    if (found.verdict != statics::Verdict::stands) return false;
+    state.gaps = gaps;
+    statics::add_hold_proof({{}, std::move(found.displacement), {}}, pile, "", state.numbers);
+    return true;
+  };
   if (!table || scene.piles->unsupported(parts, parts, up) > 0 || !(balanced(Gaps::tight) || balanced(Gaps::play)))
     state = holds_of(scene, scene.piles->pile(parts, up, Gaps::play, table), parts, assembly);
   const std::lock_guard lock(mutex_);
@@ -186,7 +144,7 @@ Gravity::State Gravity::while_put_in(Scene& scene, const StepQuestion& question)
   const State rest = worst;
   for (const double sign : {1.0, -1.0}) {
     statics::BuiltPile pressed = alone;
-    scene.piles->press(pressed, parts, question.moving, sign * question.direction, kPush, Gaps::play);
+    scene.piles->press(pressed, parts, question.moving, sign * question.direction, statics::kHandPush, Gaps::play);
     if (pressed.pile.pushes.empty()) continue;
     statics::Pile held = pressed.pile;
     for (const Hold& h : rest.holds)
@@ -194,9 +152,27 @@ Gravity::State Gravity::while_put_in(Scene& scene, const StepQuestion& question)
         if (parts[i].part == h.part) held.bodies[pressed.body_of[i]].fixed = true;
     if (statics::judge_forces(held).verdict == statics::Verdict::stands) continue;
     State state = holds_of(scene, pressed, parts, question.assembly);
+    state.push = sign * statics::kHandPush;
     if (state.holds.size() > worst.holds.size() || !state.found) worst = std::move(state);
   }
   return worst;
+}
+
+std::optional<Certificate> Gravity::proof_of(std::span<const PlacedPart> parts, const State& after, const State& during,
+                                             const State& turned, double gap) {
+  Certificate proof{"gravity", {}, {}, false, gap, {}, "The parts that are held suffice, and no fewer do."};
+  for (const PlacedPart& p : parts) proof.parts.push_back(p.part);
+  const auto add = [&](const char* name, const State& state) {
+    if (state.numbers.empty()) return;
+    for (const auto& [what, numbers] : state.numbers) proof.numbers[name + what] = numbers;
+    proof.numbers[std::string(name) + ".gaps"] = {state.gaps == Gaps::tight ? 0.0 : 1.0};
+  };
+  add("after", after);
+  add("during", during);
+  if (!during.numbers.empty()) proof.numbers["during.push"] = {during.push};
+  add("turning", turned);
+  if (proof.parts.size() < 2 || proof.numbers.empty() || !(gap > 0)) return std::nullopt;
+  return proof;
 }
 
 StepVerdict Gravity::estimate(const StepQuestion& question, const RunContext& /*context*/) const {
@@ -221,9 +197,10 @@ StepVerdict Gravity::judge(const StepQuestion& question, const RunContext& conte
   const State during = while_put_in(*scene, question);
   State turned;
   if (question.previous != nullptr && !question.present.empty() && question.previous->up.dot(question.up) < 1 - kSameUp)
-    turned =
-        at_rest(*scene, assembly, joined(question.present, {}), halfway(question.previous->up, question.up), false);
+    turned = at_rest(*scene, assembly, joined(question.present, {}),
+                     statics::up_while_turned(question.previous->up, question.up), false);
   StepVerdict verdict;
+  verdict.certificate = proof_of(all, after, during, turned, scene->piles->gap(after.gaps));
   std::set<PartId> held;
   Json holds = Json::array();
   const auto add = [&](const State& state, const char* when) {

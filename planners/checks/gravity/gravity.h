@@ -5,13 +5,16 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "dismantle/parameters.h"
 #include "dismantle/statics/built.h"
+#include "dismantle/statics/hold_proof.h"
 #include "dismantle/statics/holds.h"
+#include "dismantle/statics/model.h"
 #include "dismantle/step_check.h"
 
 namespace dismantle::checks {
@@ -49,6 +52,9 @@ class Gravity final : public StepCheck {
   struct State {
     std::vector<Hold> holds;
     bool found = true, proved = true;
+    statics::Gaps gaps = statics::Gaps::play;
+    double push = 0;           // times the weight of the part that is put in, along its path
+    statics::Numbers numbers;  // the proof; empty: none
   };
   struct Scene {
     std::unique_ptr<const statics::BuiltPiles> piles;
@@ -60,11 +66,12 @@ class Gravity final : public StepCheck {
                  const Assembly& assembly) const;
   State at_rest(Scene& scene, const Assembly& assembly, std::span<const PlacedPart> parts, const Eigen::Vector3d& up,
                 bool table) const;
+  static std::optional<Certificate> proof_of(std::span<const PlacedPart> parts, const State& after, const State& during,
+                                             const State& turned, double gap);
   State while_put_in(Scene& scene, const StepQuestion& question) const;
 
   GravityParams params_;
-  std::vector<std::string> fixed_;
-  std::vector<std::pair<std::string, double>> density_;
+  statics::StatedModel model_;
   mutable std::mutex mutex_;
   mutable std::shared_ptr<Scene> scene_;  // of the assembly that was asked about last
 };

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "dismantle/run_context.h"
+#include "dismantle/statics/step_proof.h"
 #include "dismantle/testing/shapes.h"
 
 namespace dismantle::checks {
@@ -170,6 +171,53 @@ TEST(Gravity, ManyPartsAreJudgedOneByOneAndThePlanSaysSo) {
   const std::vector<StepQuestion> plan{scene.question()};
   ASSERT_EQ(gravity.judge_plan(plan, RunContext{}).notes.size(), 1u);
   EXPECT_TRUE(Gravity().judge_plan(plan, RunContext{}).notes.empty());
+}
+
+// Law: every verdict has a proof that its checker accepts, and no number of it can be changed much.
+TEST(Gravity, ProofsHoldAndDoNotSurviveMutation) {
+  Rng rng(21);
+  unsigned held = 0, mutations = 0;
+  for (int k = 0; k < 60; ++k) {
+    std::vector<Mesh> meshes{block(-2, -2, 0, 4, 4, 1)};
+    for (int n = 0; n < 4; ++n) meshes.push_back(block(rng.uniform(-3, 2), rng.uniform(-3, 2), 1 + n / 2, 1.7, 1.7, 1));
+    const Scene scene(meshes);
+    const StepQuestion question = scene.question();
+    const StepVerdict verdict = Gravity().judge(question, RunContext{});
+    if (!verdict.certificate) continue;  // wedged by an overlap: not proved
+    const statics::BuiltPiles piles(scene.assembly, statics::StatedModel("", 0.4, "").options(scene.assembly));
+    const statics::Numbers& proof = verdict.certificate->numbers;
+    const statics::StepHolds found = statics::check_step_proof(piles, question, proof);
+    ASSERT_EQ(found.wrong, "") << k;
+    ASSERT_TRUE(found.held.contains("after") && found.held.contains("during")) << k;
+    EXPECT_GE(verdict.cost, static_cast<double>(found.held.at("after").size()));
+    held += !found.held.at("after").empty();
+    for (const auto& [name, numbers] : proof)
+      for (int trial = 0; trial < 4 && !numbers.empty(); ++trial) {
+        statics::Numbers changed = proof;
+        std::vector<double>& of = changed.at(name);
+        double most = 0;
+        for (const double x : of) most = std::max(most, std::abs(x));
+        const auto at = static_cast<std::size_t>(rng.uniform(0, static_cast<double>(of.size())));
+        if (name.find("gaps") != std::string::npos || name.find("push") != std::string::npos)
+          of[at] = 7;
+        else
+          of[at] +=
+              (1 + most) * (trial % 2 == 0 ? 1 : -1) * (name.find("displacement") != std::string::npos ? 1e-3 : 50);
+        const statics::StepHolds now = statics::check_step_proof(piles, question, changed);
+        if (name.find("falls") == std::string::npos)
+          EXPECT_NE(now.wrong, "") << name << " " << at;
+        else  // another motion may be one of falling, too: of the same bodies
+          EXPECT_TRUE(!now.wrong.empty() || now.held == found.held);
+        ++mutations;
+      }
+    statics::Numbers fewer = proof;
+    if (auto& bodies = fewer.at("after.held"); !bodies.empty()) {
+      bodies.pop_back();
+      EXPECT_NE(statics::check_step_proof(piles, question, fewer).wrong, "");
+    }
+  }
+  EXPECT_GT(held, 10u);
+  EXPECT_GT(mutations, 500u);
 }
 
 }  // namespace

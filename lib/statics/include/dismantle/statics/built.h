@@ -47,6 +47,9 @@ class DISMANTLE_API BuiltPiles {
   BuiltPile pile(std::span<const PlacedPart> parts, const Eigen::Vector3d& up, Gaps gaps = Gaps::tight,
                  bool table = true) const;
 
+  /// The largest gap that counts as touching, for a part as large as the assembly. Assembly units.
+  double gap(Gaps gaps) const { return touching(gaps) * size_; }
+
   /// Adds to the pile of `parts` what a hand does that presses `moving` onto them: `share` times the weight of `moving`
   /// along `direction`, on the contacts that stop it, or, if there is none, on those that lie along it, by friction.
   void press(BuiltPile& built, std::span<const PlacedPart> parts, std::span<const PlacedPart> moving,

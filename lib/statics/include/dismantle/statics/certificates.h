@@ -25,4 +25,9 @@ DISMANTLE_API std::string check_created(const Pile& pile, const ContactForces& f
 /// in `motion`, the load does work > 0. (Farkas' lemma.)
 DISMANTLE_API std::string check_fall(const Pile& pile, const Motions& motion);
 
+/// Forces of springs at the contact points in a displacement: each is the projection on the friction cone of minus the
+/// displacement, times the weight of the lighter body that can move. They lie in their cones, whatever the
+/// displacement.
+DISMANTLE_API ContactForces spring_forces(const Pile& pile, const Motions& displacement);
+
 }  // namespace dismantle::statics

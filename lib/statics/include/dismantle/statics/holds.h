@@ -26,6 +26,7 @@ struct Holds {
   std::vector<std::uint32_t> held{};  ///< ascending
   std::vector<HoldGroup> groups{};    ///< one of each must be held; no smaller set meets all of them
   ContactForces forces{};             ///< that balance the pile with `held` fixed
+  Motions displacement{};             ///< that goes with them, as in Judgement
 };
 
 /// Judgements of small piles, so that what does not change from one state to the next is judged once. An answer depends

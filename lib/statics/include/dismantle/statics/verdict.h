@@ -33,7 +33,7 @@ struct Judgement {
 DISMANTLE_API Judgement judge(const Pile& pile, const std::function<bool()>& stop = {});
 
 /// The same for forces alone: `stands` means that forces in equilibrium exist, whatever creates them. Some ten times
-/// faster. The certificates are `forces` and `motion`.
+/// faster. The certificates are `forces` and `motion`; `displacement` gives the forces by spring_forces().
 DISMANTLE_API Judgement judge_forces(const Pile& pile, const std::function<bool()>& stop = {});
 
 }  // namespace dismantle::statics

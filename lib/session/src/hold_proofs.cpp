@@ -1,0 +1,133 @@
+#include "hold_proofs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <variant>
+
+#include "dismantle/engine/judgement.h"
+#include "dismantle/engine/run.h"
+#include "dismantle/statics/model.h"
+#include "dismantle/statics/step_proof.h"
+
+namespace dismantle {
+namespace {
+
+constexpr const char* kCheck = "gravity";
+
+std::string text_in(const ParamSet& parameters, const char* name) {
+  const auto found = parameters.find(name);
+  if (found == parameters.end()) return "";
+  const auto* text = std::get_if<std::string>(&found->second);
+  return text == nullptr ? to_text(found->second) : *text;
+}
+
+double number_in(const ParamSet& parameters, const char* name, double otherwise) {
+  const auto found = parameters.find(name);
+  if (found == parameters.end()) return otherwise;
+  if (const auto* whole = std::get_if<std::int64_t>(&found->second)) return static_cast<double>(*whole);
+  const auto* number = std::get_if<double>(&found->second);
+  return number == nullptr ? otherwise : *number;
+}
+
+/// What the note of a step says of its holds: the names by state.
+struct StatedHolds {
+  std::map<std::string, std::vector<std::string>> names;
+  bool proved = false;
+};
+
+StatedHolds stated_in(const PlanVerdict& verdict) {
+  StatedHolds stated;
+  for (const StepNote& note : verdict.notes) {
+    if (note.kind != "hold") continue;
+    const auto data = nlohmann::json::parse(note.data);
+    stated.proved = data.value("proved", false);
+    for (const auto& hold : data.at("hold"))
+      stated.names[hold.at("when").get<std::string>()].push_back(hold.at("part").get<std::string>());
+  }
+  return stated;
+}
+
+/// How the names differ from the bodies that the proof is about; empty: one of each body.
+std::string difference(std::vector<std::string> names, const std::vector<std::vector<PartId>>& held,
+                       const Assembly& assembly) {
+  if (names.size() != held.size())
+    return fmt::format("{} holds are proved, and the step states {}", held.size(), names.size());
+  for (const std::vector<PartId>& body : held) {
+    const auto named = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+      return std::any_of(body.begin(), body.end(), [&](PartId p) { return assembly.parts[p].name == name; });
+    });
+    if (named == names.end())
+      return fmt::format("a hold of '{}' is proved, and the step does not state it", assembly.parts[body.front()].name);
+    names.erase(named);
+  }
+  return "";
+}
+
+/// Empty: the proof of a step holds, and it is what the step states.
+std::string problem_of(const PlanVerdict& verdict, const StepQuestion& question, const statics::BuiltPiles& piles) {
+  const StatedHolds stated = stated_in(verdict);
+  const PlanCertificate* proof =
+      verdict.certificate && verdict.certificate->kind == kCheck ? &*verdict.certificate : nullptr;
+  statics::StepHolds proved;
+  if (proof != nullptr) {
+    std::vector<std::string> there;
+    for (const PlacedPart& p : statics::joined(question.present, question.moving))
+      there.push_back(question.assembly.parts[p.part].name);
+    if (!std::is_permutation(there.begin(), there.end(), proof->parts.begin(), proof->parts.end()))
+      return "its parts are not those that are there after the step";
+    proved = statics::check_step_proof(piles, question, proof->numbers);
+    if (!proved.wrong.empty()) return proved.wrong;
+  }
+  for (const std::string state : {"after", "during", "turning"}) {
+    const auto names = stated.names.find(state);
+    const std::vector<std::string> said = names == stated.names.end() ? std::vector<std::string>{} : names->second;
+    const auto held = proved.held.find(state);
+    if (held == proved.held.end()) {
+      if (proof != nullptr && stated.proved && !said.empty()) return "the holds '" + state + "' are not proved";
+      continue;
+    }
+    if (state == "turning" && held->second.size() <= 1 && said.empty()) continue;  // a hand is there anyway
+    if (const std::string text = difference(said, held->second, question.assembly); !text.empty())
+      return fmt::format("'{}': {}", state, text);
+  }
+  return "";
+}
+
+}  // namespace
+
+void check_hold_proofs(PlanCheck& check, const Plan& plan, const Assembly& assembly, const RunContext& context) {
+  if (!check.valid) return;
+  const PlanObjective& objective = plan.objective;
+  for (std::size_t c = 0; c < objective.checks.size(); ++c) {
+    const PlanObjectiveItem& item = objective.checks[c];
+    if (item.type != kCheck) continue;
+    const statics::StatedModel model(text_in(item.parameters, "fixed"), number_in(item.parameters, "friction", 0.4),
+                                     text_in(item.parameters, "density"));
+    const statics::BuiltPiles piles(assembly, model.options(assembly));
+    const std::deque<Operation> operations = operations_of(disassembly_of(plan, assembly), assembly, objective.up);
+    std::size_t proofs = 0;
+    for (std::size_t k = 0; k < operations.size() && !context.should_stop(); ++k) {
+      const PlanStep& step = plan.disassembly.at(operations.size() - 1 - k);
+      const PlanVerdict& verdict = step.checks.at(c);
+      if (!verdict.certificate) continue;
+      ++proofs;
+      const StepQuestion before = operations[k == 0 ? 0 : k - 1].question();
+      std::string wrong;
+      try {
+        wrong = problem_of(verdict, operations[k].question(k == 0 ? nullptr : &before), piles);
+      } catch (const nlohmann::json::exception& e) {
+        wrong = fmt::format("the data of its note cannot be read: {}", e.what());
+      }
+      if (wrong.empty()) continue;
+      check.valid = check.complete = false;
+      check.problems.push_back({step.step, fmt::format("'{}': its proof does not hold: {}", item.type, wrong)});
+    }
+    context.log(LogLevel::info, fmt::format("{} proofs of holds checked", proofs));
+  }
+}
+
+}  // namespace dismantle
