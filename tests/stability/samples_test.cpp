@@ -53,6 +53,16 @@ TEST(SamplesStand, AStackTopplesOrSlides) {
   }
 }
 
+TEST(SamplesStand, ADomeWithEnoughFriction) {
+  for (const std::int64_t rings : {1, 2, 3}) {
+    StabilityOptions options;
+    options.friction = 0.5;
+    EXPECT_EQ(Case("dome", {{"rings", rings}}, options).verdict(), Verdict::stands) << rings;
+    options.friction = 0.05;
+    EXPECT_EQ(Case("dome", {{"rings", rings}}, options).verdict(), Verdict::falls) << rings;
+  }
+}
+
 TEST(SamplesStand, ATableOnFourLegs) { EXPECT_EQ(Case("loose_table", {}, {}).verdict(), Verdict::stands); }
 
 TEST(SamplesStand, ABlockBetweenWallsOnlyIfItWasPressedIn) {

@@ -193,6 +193,8 @@ BestFirst best_first(Problem& problem, const Task& task, double known, Effort& e
 
 namespace {
 
+constexpr std::size_t kAhead = 4;  // times the width of the beam: candidates of which the next step is looked at
+
 struct Candidate {
   Node node;
   double score = 0;
@@ -215,6 +217,23 @@ std::vector<VariantId> successors(Problem& problem, const Task& task, const Node
   like.insert(like.end(), other.begin(),
               other.begin() + static_cast<std::ptrdiff_t>(std::min(other.size(), most - kept)));
   return like;
+}
+
+/// What is left costs in the next step, beyond what that step costs at least: the cost of a step depends on what is
+/// there before, which the steps that lead there do not show. By the first variant that may leave.
+double ahead(Problem& problem, const Task& task, const Node& node) {
+  double cost = 0;
+  bool known = false;
+  candidates(task, node.left).each([&](std::size_t u) {
+    if (known) return;
+    for (const VariantId v : problem.variants_of(u)) {
+      if (!fits(task, problem.leaving(v), node.left) || !problem.may_leave(v, node.left)) continue;
+      cost = std::max(0.0, problem.cost(v, node.left - problem.leaving(v), kNone) - problem.least(v));
+      known = true;
+      return;
+    }
+  });
+  return cost;
 }
 
 }  // namespace
@@ -251,9 +270,16 @@ Order beam(Problem& problem, const Task& task, Effort& effort) {
           found[entry->second] = std::move(c);
       }
     }
+    // Of those that are as good so far, the ones that lead to less.
+    const auto by_score = [](const Candidate& a, const Candidate& b) { return a.score < b.score - kSame; };
+    std::stable_sort(found.begin(), found.end(), by_score);
+    const auto looked_at = static_cast<std::ptrdiff_t>(std::min(found.size(), kAhead * width));
+    for (auto c = found.begin(); c != found.begin() + looked_at; ++c) {
+      if (!effort.spend()) return best;
+      c->score += ahead(problem, task, c->node);
+    }
+    std::stable_sort(found.begin(), found.begin() + looked_at, by_score);
     // Layers of more units may have led here already: a step of several units skips layers.
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.score < b.score - kSame; });
     for (Candidate& c : found) {
       std::vector<std::size_t>& target = layers[c.node.left.size()];
       if (target.size() >= width) continue;

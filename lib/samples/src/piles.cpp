@@ -162,6 +162,58 @@ Model arch(const ArchParams& p) {
   return model;
 }
 
+struct DomeParams {
+  int rings = 2, segments = 6;
+  double radius = 100, thickness = 20;
+  static void describe(Schema<DomeParams>& s) {
+    s.add("rings", &DomeParams::rings, {.unit = "1", .min = 1, .max = 12, .doc = "Number of rings below the cap."});
+    s.add("segments", &DomeParams::segments, {.unit = "1", .min = 5, .max = 24, .doc = "Number of blocks of a ring."});
+    s.add("radius", &DomeParams::radius,
+          {.unit = "mm", .min = 10, .max = 1000, .doc = "Radius of the middle of the shell."});
+    s.add("thickness", &DomeParams::thickness,
+          {.unit = "mm", .min = 1, .max = 500, .doc = "Thickness; at most half of `radius`."});
+  }
+};
+
+/// All joints lie in planes through the centre: each block slides outwards, whatever else is there.
+Model dome(const DomeParams& p) {
+  if (p.thickness > 0.5 * p.radius) throw std::invalid_argument("dome: thickness is more than half of radius");
+  Model model;
+  const double inner = p.radius - p.thickness / 2, outer = p.radius + p.thickness / 2;
+  const auto at = [](double angle, double turn, double r) {
+    return Point(r * std::cos(angle) * std::cos(turn), r * std::cos(angle) * std::sin(turn), r * std::sin(angle));
+  };
+  const double far = 1.2 * outer, rise = pi / 2 / (p.rings + 0.5), turn = 2 * pi / p.segments;
+  add_part(model, "ground", Cells().add(Point(-far, -far, -p.thickness), Point(far, far, 0)).mesh());
+  std::vector<Point> ways{Point::Zero()};
+  // The gap across a block: of its height, or of its width at the cap.
+  model.clearance =
+      0.9 * inner * std::cos(turn / 2) * std::min(std::sin(rise), 2 * std::cos(p.rings * rise) * std::sin(turn / 2));
+  const auto block = [](int ring, int k) { return "block" + std::to_string(ring + 1) + "_" + std::to_string(k + 1); };
+  for (int ring = 0; ring < p.rings; ++ring)
+    for (int k = 0; k < p.segments; ++k) {
+      const double from = ring * rise, left = k * turn;
+      const std::string name =
+          add_part(model, block(ring, k), voussoir(from, from + rise, left + turn, left, inner, outer, at));
+      ways.push_back(far * at(from + rise / 2, left + turn / 2, 1));
+      if (ring == 0) touch(model, name, "ground", ways.back());
+      if (k > 0) touch(model, name, block(ring, k - 1), ways.back());
+      if (k == p.segments - 1) touch(model, name, block(ring, 0), ways.back());
+      for (int side = ring == 0 ? 2 : -1; side < 2; ++side)  // below, and across the corners
+        touch(model, name, block(ring - 1, (k + side + p.segments) % p.segments), ways.back());
+    }
+  Loop low, high;
+  for (int k = 0; k < p.segments; ++k) {
+    low.push_back(at(p.rings * rise, k * turn, inner));
+    high.push_back(at(p.rings * rise, k * turn, outer));
+  }
+  const std::string cap = add_part(model, "cap", Loft().to(low).to(high).capped());
+  ways.emplace_back(0, 0, far);
+  for (int k = 0; k < p.segments; ++k) touch(model, cap, block(p.rings - 1, k), ways.back());
+  take_off(model, ways);
+  return model;
+}
+
 }  // namespace
 
 std::vector<Maker> pile_makers() {
@@ -169,7 +221,8 @@ std::vector<Maker> pile_makers() {
   return {maker<StackParams>("stack", "Blocks on each other, in line or leaning out.", &stack, touching),
           maker<TableParams>("loose_table", "A top that lies on four legs.", &loose_table, touching),
           maker<WedgedParams>("wedged_block", "A block between two walls, above the floor.", &wedged_block, touching),
-          maker<ArchParams>("arch", "A half circle of wedges on the ground.", &arch, touching)};
+          maker<ArchParams>("arch", "A half circle of wedges on the ground.", &arch, touching),
+          maker<DomeParams>("dome", "Rings of wedges and a cap on the ground.", &dome, touching)};
 }
 
 }  // namespace dismantle::samples
