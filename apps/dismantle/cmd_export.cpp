@@ -9,6 +9,7 @@
 #include "dismantle/frame_options.h"
 #include "dismantle/plan_io/animation.h"
 #include "dismantle/plan_io/exports.h"
+#include "dismantle/plan_io/job_list.h"
 #include "dismantle/plan_io/robot_exports.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/settings.h"
@@ -53,7 +54,12 @@ constexpr std::array kExportFormats{
     ExportFormat{"and-or-dot", "and_or.dot", "the same for Graphviz", false,
                  [](const Plan& p, const InputFrame&) { return and_or_dot(p); }, nullptr},
     ExportFormat{"bom-csv", "bom.csv", "bill of materials, a row each", false, nullptr, bom_csv},
-    ExportFormat{"steps-csv", "steps.csv", "steps of the assembly, a row each", false, nullptr, nullptr, nullptr, steps_csv},
+    ExportFormat{"steps-csv", "steps.csv", "steps of the assembly, a row each", false, nullptr, nullptr, nullptr,
+                 steps_csv},
+    ExportFormat{"fasteners-csv", "fasteners.csv", "fasteners of the whole job, with their tools", false,
+                 [](const Plan& p, const InputFrame&) { return fasteners_csv(p); }, nullptr},
+    ExportFormat{"tools-csv", "tools.csv", "tools of the whole job", false,
+                 [](const Plan& p, const InputFrame&) { return tools_csv(p); }, nullptr},
     ExportFormat{"markdown", "steps.md", "table of the steps", false, nullptr, nullptr, nullptr, steps_markdown},
     ExportFormat{"mjcf", "mjcf/", "a model for MuJoCo with a state for each step", false, nullptr, nullptr, to_mjcf},
     ExportFormat{"ros", "ros/", "a URDF and trajectories for ROS 2", false, nullptr, nullptr, to_ros},
@@ -92,9 +98,8 @@ int write_folder(const std::vector<ExportedFile>& files, const std::filesystem::
 Assembly assembly_for(const Plan& plan, const ExportOptions& options, Console& console) {
   const Session session = reader(console);
   RunContext context = context_of(session, console);
-  return stoppable(context, [&] {
-    return session.assembly_of(plan, source_of(plan, options.plan, options.assembly), context);
-  });
+  return stoppable(context,
+                   [&] { return session.assembly_of(plan, source_of(plan, options.plan, options.assembly), context); });
 }
 
 /// Empty, with a warning, if the input is not there; one that the user names has to be.
@@ -103,8 +108,8 @@ GuidedDistances distances_of(const Plan& plan, const ExportOptions& options, Con
   try {
     return guided_distances(plan, assembly_for(plan, options, console));
   } catch (const InputError& e) {
-    console.warning(fmt::format("distances are the lengths of the verified paths, because the input cannot be used: {}",
-                                e.what()));
+    console.warning(
+        fmt::format("distances are the lengths of the verified paths, because the input cannot be used: {}", e.what()));
     return {};
   }
 }
@@ -158,12 +163,13 @@ void add_export(CLI::App& app, Action& action) {
       ->option_text("INPUT");
   add_frame(*command, options->frame);
   add_verbosity(*command, options->console);
-  command->footer(table +
-                  "Poses, glTF, the bill of materials and folders need the input of the plan, the steps use it if it is there;\n"
-                  "all else is made from the plan alone.\n"
-                  "Examples:\n"
-                  "  dismantle export out/plan.json --format poses-csv\n"
-                  "  dismantle export out/plan.json --format and-or-dot -o - | dot -Tsvg > and_or.svg");
+  command->footer(
+      table +
+      "Poses, glTF, the bill of materials and folders need the input of the plan, the steps use it if it is there;\n"
+      "all else is made from the plan alone.\n"
+      "Examples:\n"
+      "  dismantle export out/plan.json --format poses-csv\n"
+      "  dismantle export out/plan.json --format and-or-dot -o - | dot -Tsvg > and_or.svg");
   command->callback([&action, options] { action = [options] { return export_plan(*options); }; });
 }
 

@@ -11,6 +11,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/explain.h"
+#include "dismantle/plan_io/job_list.h"
 #include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/step_numbers.h"
 #include "dismantle/plan_io/summary.h"
@@ -56,6 +57,7 @@ class ContentWriter {
       for (std::size_t s = 0; s < chapter.steps.size(); ++s) add_page(chapter, s);
     std::ranges::sort(content_.pages, {}, &BookPage::number);
     write_contents();
+    write_job();
     return std::move(content_);
   }
 
@@ -126,6 +128,14 @@ class ContentWriter {
     for (const PlacedPart& placed : picture) box.extend(assembly_.parts[placed.part].mesh->box());
     content_.items.push_back(
         {content_.items.size() + 1, {}, {}, std::move(picture), size_text(box.size() / assembly_.normalization.scale)});
+  }
+
+  void write_job() {
+    const JobList job = job_list(plan_, options_.disassembly);
+    if (!job.fasteners.empty()) content_.job.push_back({"Fasteners", 0, true});
+    for (const JobFastener& f : job.fasteners) content_.job.push_back({fastener_words(f), 0, false});
+    if (!job.tools.empty()) content_.job.push_back({"Tools", 0, true});
+    for (const JobTool& t : job.tools) content_.job.push_back({tool_words(t), 0, false});
   }
 
   void write_contents() {

@@ -47,6 +47,7 @@ struct BookContent {
   std::vector<std::string> warnings;
   std::vector<BookItem> items;
   std::string base;  ///< what the book leaves together and does not list, in words; empty: nothing
+  std::vector<ContentsLine> job;  ///< fasteners and tools of the whole job, without pages; empty: there are none
   std::vector<ContentsLine> contents;  ///< empty: too few pages for it
   std::vector<BookChapter> chapters;
   std::vector<BookPage> pages;  ///< by number; `step` points into `chapters`

@@ -71,6 +71,15 @@ std::string contents_list(const BookContent& content) {
   return out + "</div></section>\n";
 }
 
+/// A section, or nothing.
+std::string job_section(const BookContent& content) {
+  if (content.job.empty()) return {};
+  std::string out = "<section id=\"job\"><h2>Fasteners and tools</h2><div class=\"contents\">\n";
+  for (const ContentsLine& line : content.job)
+    out += fmt::format("<p{}>{}</p>\n", line.heading ? " class=\"heading\"" : "", escaped_markup(line.words));
+  return out + "</div></section>\n";
+}
+
 std::string step_page(const BookPage& page, const StepPictures& pictures, bool disassembly) {
   std::string out = fmt::format(
       "<section class=\"page\" id=\"step-{}\"><div class=\"head\"><span>{}</span><span>step {} of {}</span></div>\n",
@@ -125,7 +134,7 @@ std::string book_html(const Plan& plan, const Assembly& assembly, const BookOpti
         item.names.size() > 1 ? fmt::format("<div class=\"soft\">{}</div>", escaped_markup(names)) : "",
         escaped_markup(item.size));
   }
-  out += "</div></section>\n";
+  out += "</div></section>\n" + job_section(content);
   for (const BookPage& page : content.pages) {
     options.on_page(page.number, page.count);
     out += step_page(page, illustrator.step(*page.step, options.disassembly), options.disassembly);

@@ -145,6 +145,31 @@ std::size_t item_page_count(const BookContent& content, const PageStyle& style) 
   return (content.items.size() + per_page - 1) / per_page;
 }
 
+constexpr double kJobLine = 26;  // height; two lines of small type
+
+std::size_t job_rows(const PageStyle& style) {
+  return static_cast<std::size_t>((style.height - 2 * style.margin - 34) / kJobLine);
+}
+std::size_t job_page_count(const BookContent& content, const PageStyle& style) {
+  const std::size_t per_page = 2 * job_rows(style);
+  return (content.job.size() + per_page - 1) / per_page;
+}
+
+/// Two columns of fasteners and tools.
+void job_pages(PdfPages& pdf, const BookContent& content) {
+  const PageStyle& style = pdf.style();
+  const double margin = style.margin, gap = 30, width = 0.5 * (style.width - 2 * margin - gap);
+  const std::size_t rows = job_rows(style), per_page = 2 * rows;
+  for (std::size_t i = 0; i < content.job.size(); ++i) {
+    const std::size_t at = i % per_page;
+    if (at == 0) pdf.text(margin, margin, style.width - 2 * margin, "Fasteners and tools", 19, style.text, true);
+    const double x = margin + (at < rows ? 0 : width + gap), y = margin + 34 + double(at % rows) * kJobLine;
+    const ContentsLine& line = content.job[i];
+    pdf.text(x + (line.heading ? 0 : 10), y, width - 10, line.words, 10, style.text, line.heading, kJobLine - 1);
+    if (at + 1 == per_page || i + 1 == content.job.size()) pdf.end_page();
+  }
+}
+
 /// Two columns of lines with the numbers of their pages.
 void contents_pages(PdfPages& pdf, const BookContent& content) {
   if (content.contents.empty()) return;
@@ -154,7 +179,7 @@ void contents_pages(PdfPages& pdf, const BookContent& content) {
   const auto rows = static_cast<std::size_t>((style.height - margin - top) / line_height);
   const std::size_t lines = content.contents.size() + 1, per_page = 2 * rows;
   const std::size_t materials = 2 + (lines + per_page - 1) / per_page;  // number of that page; the title has 1
-  const std::size_t steps = materials + item_page_count(content, style);
+  const std::size_t steps = materials + item_page_count(content, style) + job_page_count(content, style);
   for (std::size_t i = 0; i < lines; ++i) {
     const std::size_t at = i % per_page;
     if (at == 0) pdf.text(margin, margin, style.width - 2 * margin, "Contents", 19, style.text, true);
@@ -178,7 +203,8 @@ void item_pages(PdfPages& pdf, const BookContent& content, const Illustrator& il
     const std::size_t at = i % per_page;
     if (at == 0) {
       pdf.text(margin, margin, 180, "Bill of materials", 19, style.text, true);
-      if (!content.base.empty()) pdf.text(margin + 190, margin + 4, width - 190, content.base, 9.5, style.soft, false, 26);
+      if (!content.base.empty())
+        pdf.text(margin + 190, margin + 4, width - 190, content.base, 9.5, style.soft, false, 26);
     }
     const BookItem& item = content.items[i];
     const double x = margin + double(at % style.item_columns) * (w + gap),
@@ -241,6 +267,7 @@ std::string book_pdf(const Plan& plan, const Assembly& assembly, const BookOptio
   title_page(pdf, content, front_pictures(plan, assembly, illustrator));
   contents_pages(pdf, content);
   item_pages(pdf, content, illustrator);
+  job_pages(pdf, content);
   for (const BookPage& page : content.pages) {
     options.on_page(page.number, page.count);
     pdf_step(pdf, page, illustrator.step(*page.step, options.disassembly, 1.5), options.disassembly);

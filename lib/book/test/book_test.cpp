@@ -254,6 +254,27 @@ TEST(Book, AThickBookHasATableOfContents) {
   EXPECT_NE(book_pdf(plan, assembly, {}).find("/Count " + std::to_string(3 + plan.disassembly.size())), std::string::npos);
 }
 
+// A page of its own, after the bill of materials, if there are any.
+TEST(Book, ListsTheFastenersAndToolsOfTheJob) {
+  std::mt19937 random(19);
+  const Assembly assembly = row_of(8);
+  Plan plan = random_plan(assembly, random);
+  EXPECT_EQ(book_html(plan, assembly, {}).find("Fasteners and tools"), std::string::npos);
+  plan.assembly.parts[0].kind = PartKind{"screw", "M3x10", 1};
+  plan.assembly.parts[5].kind = PartKind{"screw", "M3x10", 1};
+  plan.disassembly[0].checks.push_back(
+      {.type = "tool_access",
+       .notes = {{"tool_access.tool", "", R"({"part": "p5", "tool": "hex_key_2.5", "name": "hex key 2.5"})"}}});
+  const std::string html = book_html(plan, assembly, {});
+  EXPECT_NE(html.find("<p>2x screw M3x10: hex key 2.5</p>"), std::string::npos);
+  EXPECT_NE(html.find("<p>hex key 2.5: 1x M3x10, step " + std::to_string(plan.disassembly.size()) + "</p>"),
+            std::string::npos);
+  BookOptions apart;
+  apart.disassembly = true;
+  EXPECT_NE(book_html(plan, assembly, apart).find("<p>hex key 2.5: 1x M3x10, step 1</p>"), std::string::npos);
+  EXPECT_NE(book_pdf(plan, assembly, {}).find("/Count " + std::to_string(4 + plan.disassembly.size())), std::string::npos);
+}
+
 /// The plan takes out p0 and then p1; the others stay together.
 Plan repair_plan(const Assembly& assembly) {
   Plan plan;

@@ -312,6 +312,8 @@ class Judge {
   json place_of(const Driven& driven, const Reach& found) const {
     return {{"part", name(driven)},
             {"tool", found.tool->id},
+            {"name", found.tool->name},
+            {"drive", drive_text(driven.fastener)},
             {"use", found.access.use->name},
             {"at", json_of(found.at)},
             {"from", json_of(found.axis)},

@@ -1,6 +1,7 @@
 #include <numbers>
 
 #include "dismantle/plan_io/explain.h"
+#include "dismantle/plan_io/job_list.h"
 #include "dismantle/plan_io/step_numbers.h"
 #include "dismantle/plan_io/summary.h"
 #include "json/json_text.h"
@@ -47,6 +48,14 @@ Json reason_json(const Plan& plan, const LeftReason& reason) {
   return out;
 }
 
+Json fastener_json(const JobFastener& f) {
+  Json out = {{"kind", f.kind},   {"size", f.size},   {"drive", f.drive},
+              {"tools", f.tools}, {"steps", f.steps}, {"parts", f.parts}};
+  if (f.torque) out["torque"] = *f.torque;
+  if (!f.glue.empty()) out["glue"] = f.glue;
+  return out;
+}
+
 }  // namespace
 
 std::string explain_json(const Explanation& e) {
@@ -73,12 +82,19 @@ std::string explain_json(const Explanation& e) {
   for (const LeftReason& reason : e.left) left.push_back(reason_json(plan, reason));
   for (const PlanExcluded& part : plan.assembly.excluded)
     excluded.push_back({{"name", part.name}, {"reason", part.reason}});
+  const JobList job = job_list(plan);
+  Json fasteners = Json::array(), tools = Json::array();
+  for (const JobFastener& f : job.fasteners) fasteners.push_back(fastener_json(f));
+  for (const JobTool& t : job.tools)
+    tools.push_back({{"id", t.id}, {"name", t.name}, {"fasteners", t.fasteners}, {"steps", t.steps}});
   const Json out = {{"status", result_word(plan)},
                     {"unit", plan.assembly.unit.empty() ? "input units" : plan.assembly.unit},
                     {"parts", plan.assembly.parts.size()},
                     {"left", std::move(left)},
                     {"untried", e.untried},
                     {"steps", std::move(steps)},
+                    {"fasteners", std::move(fasteners)},
+                    {"tools", std::move(tools)},
                     {"excluded", std::move(excluded)}};
   return json_text(out);
 }

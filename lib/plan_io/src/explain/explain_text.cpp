@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "dismantle/plan_io/explain.h"
+#include "dismantle/plan_io/job_list.h"
 #include "dismantle/plan_io/step_numbers.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/text_columns.h"
@@ -131,6 +132,17 @@ std::string steps_text(const Explanation& e, const TextUnit& unit) {
   return out;
 }
 
+/// What to lay ready.
+std::string job_text(const Plan& plan) {
+  const JobList job = job_list(plan);
+  std::string out;
+  if (!job.fasteners.empty()) out += "\nfasteners:\n";
+  for (const JobFastener& f : job.fasteners) out += fmt::format("  {}\n", fastener_words(f));
+  if (!job.tools.empty()) out += "\ntools (steps of the assembly):\n";
+  for (const JobTool& t : job.tools) out += fmt::format("  {}\n", tool_words(t));
+  return out;
+}
+
 }  // namespace
 
 std::string explain_text(const Explanation& e) { return explain_text(e, length_unit(*e.plan)); }
@@ -146,6 +158,7 @@ std::string explain_text(const Explanation& e, const TextUnit& unit) {
   if (!e.untried.empty())
     out += fmt::format("\nstill together, without a failed search on record: {}\n", text::joined(e.untried));
   out += steps_text(e, unit);
+  if (!e.steps.empty() && e.steps.size() == plan.disassembly.size()) out += job_text(plan);
   if (e.left.empty() && e.steps.empty() && e.untried.empty())
     out += complete ? "It stays where it is: the others were taken from it.\n" : "Nothing is on record about it.\n";
   return out;
