@@ -76,6 +76,15 @@ TEST(JobList, AProductInOnePieceIsNoFastener) {
   EXPECT_EQ(job.fasteners[2].parts, std::vector<std::string>{"nut"});
 }
 
+// Where no tool reaches a screw, its row is that of the others.
+TEST(JobList, ABlockedScrewHasItsDrive) {
+  Plan plan = plan_of_lid();
+  plan.disassembly[1].checks[0].notes[0].kind = "tool_access.blocked";
+  const JobList job = job_list(plan);
+  EXPECT_EQ(fastener_words(job.fasteners[0]), "2x screw M3x10: hex key 2.5");
+  EXPECT_EQ(tool_words(job.tools[0]), "hex key 2.5: 1x M3x10, 1x M12, steps 2, 5");
+}
+
 // A plan that nobody judged has fasteners without tools; notes that are no JSON are passed over.
 TEST(JobList, WithoutNotesThereAreNoTools) {
   Plan plan = plan_of_lid();

@@ -135,6 +135,21 @@ std::optional<Driven> FastenerMemo::look_at(const Part& part) const {
   return out;
 }
 
+/// How far the facets of a round surface are from its circle.
+static double sagitta(const Mesh& mesh, const Shape& shape) {
+  const auto from_axis = [&](const Eigen::Vector3d& p) { return (p - shape.top).cross(shape.axis).norm(); };
+  const auto outer = [&](const Eigen::Vector3d& p) { return from_axis(p) > 0.99 * shape.radius; };
+  double out = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d &a = mesh.vertex(t, k), &b = mesh.vertex(t, (k + 1) % 3);
+      // Across a face on the end an edge is a chord of any length.
+      if (outer(a) && outer(b) && outer(mesh.vertex(t, (k + 2) % 3)) && from_axis((a + b) / 2) > 0.9 * shape.radius)
+        out = std::max(out, shape.radius - from_axis((a + b) / 2));
+    }
+  return out;
+}
+
 std::optional<Driven> FastenerMemo::pressed_in(const Part& part, const Shape& shape, const PartKind& said) const {
   if (shape.kind == Kind::other || !(shape.height > 0) || !(shape.radius > 0)) return std::nullopt;
   Driven out;
@@ -152,11 +167,13 @@ std::optional<Driven> FastenerMemo::pressed_in(const Part& part, const Shape& sh
   f.top = shape.top + clear * f.axis;
   out.height = mm_ * (shape.height + 2 * clear);
   f.travel = mm_ * shape.height;
+  const double facets = 2 * sagitta(*part.mesh, shape);  // of both parts
   for (const InitialOverlap& o : assembly_.overlaps) {
     if (o.a != part.id && o.b != part.id) continue;
     if (!o.place || o.place->contact != ContactClass::uniform_interference || !o.place->axis) continue;
-    if (std::abs(o.place->axis->normalized().dot(shape.axis)) > 0.99)
-      out.partners.push_back(o.a == part.id ? o.b : o.a);
+    if (std::abs(o.place->axis->normalized().dot(shape.axis)) < 0.99) continue;
+    out.partners.push_back(o.a == part.id ? o.b : o.a);
+    out.sure = out.sure && o.depth > facets;
   }
   if (out.partners.empty()) return std::nullopt;
   return out;

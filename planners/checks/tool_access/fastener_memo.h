@@ -28,6 +28,7 @@ struct Driven {
   bool either_side = false;  ///< the tool comes from either end of the axis
   double height = 0;         ///< mm, along the axis, of what the tool may come to from either end
   bool pressed = false;      ///< without play in, or on, each of its partners
+  bool sure = true;          ///< false: it may as well be drawn with its size, so that only facets overlap
   /// Parts beside its thread, or inside its hole, the nearest one first: it is driven into one of them, or onto it.
   std::vector<PartId> partners{};
 };

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "dismantle/tools/two_tools.h"
+#include "order_notes.h"
 #include "tool_words.h"
 
 namespace dismantle::checks {
@@ -81,6 +82,7 @@ class Judge {
   void note(const char* kind, std::string text, const Driven& driven, json data) {
     data["part"] = name(driven);
     if (!driven.size.empty()) data["size"] = driven.size;
+    if (is_turned(driven) && has_drive(driven)) data["drive"] = drive_text(driven.fastener);
     add_fastening(driven, text, data);
     if (memo_.assembly().unit.empty()) {
       data["assumed"] = "mm";
@@ -129,46 +131,25 @@ class Judge {
            {{"reason", why}});
       return;
     }
-    report(driven, answer(driven, partner, other, pose), partner);
-    if (const auto screw = f.kind == Kind::nut ? other : driven.part) {
-      look_for_clamped(*screw);
-      look_at_pattern(*screw);
+    if (driven.pressed)
+      report_pressed(driven, answer(driven, partner, {}, pose), *partner);
+    else
+      report(driven, answer(driven, partner, other, pose));
+    if (const auto screw = f.kind == Kind::nut ? other : driven.part) look_at_order(*screw);
+  }
+
+  /// What the order of the screws calls for.
+  void look_at_order(PartId screw) {
+    if (auto note = early_note(memo_, there_, screw)) {
+      ++early_;
+      if (verdict_.reason.empty())
+        verdict_.reason = fmt::format("'{}' is tightened before what it clamps is there", name(screw));
+      verdict_.notes.push_back(std::move(*note));
     }
-  }
-
-  /// A screw that is tightened too early has to be loosened again.
-  void look_for_clamped(PartId screw) {
-    const fasteners::Fastening* f = memo_.fastening_of(screw);
-    if (f == nullptr) return;
-    std::vector<std::string> missing;
-    for (const PartId part : f->clamps)
-      if (!is_in(part, there_)) missing.push_back(name(part));
-    if (missing.empty()) return;
-    ++early_;
-    if (verdict_.reason.empty())
-      verdict_.reason = fmt::format("'{}' is tightened before what it clamps is there", name(screw));
-    const std::string text = fmt::format("'{}' is tightened too early: it clamps {}, which {} not there yet.",
-                                         name(screw), listed_names(missing), missing.size() == 1 ? "is" : "are");
-    verdict_.notes.push_back({"tool_access.early", text, json{{"screw", name(screw)}, {"missing", missing}}.dump()});
-  }
-
-  /// Said once, when the first screw of the pattern is tightened.
-  void look_at_pattern(PartId screw) {
     const fasteners::Pattern* pattern = memo_.pattern_of(screw);
     if (pattern == nullptr || std::find(said_.begin(), said_.end(), pattern) != said_.end()) return;
-    for (const PartId other : pattern->screws) {
-      const auto nut = memo_.nut_of(other);
-      if (other != screw && is_in(other, q_.present) && (!nut || is_in(*nut, q_.present))) return;
-    }
     said_.push_back(pattern);
-    std::vector<std::string> screws, clamps;
-    for (const PartId part : pattern->screws) screws.push_back(name(part));
-    for (const PartId part : pattern->clamps) clamps.push_back(name(part));
-    std::string text = fmt::format(
-        "{} equal screws ({}) clamp {}: put all of them in by hand first, then tighten them in cross order: {}.",
-        screws.size(), pattern->size, listed_names(clamps), listed_names(screws));
-    verdict_.notes.push_back({"tool_access.pattern", std::move(text),
-                              json{{"screws", screws}, {"clamps", clamps}, {"size", pattern->size}}.dump()});
+    if (auto note = pattern_note(memo_, q_.present, screw)) verdict_.notes.push_back(std::move(*note));
   }
 
   /// Tools that fit the fasteners of the step before: one of each is in the hand.
@@ -313,7 +294,6 @@ class Judge {
     return {{"part", name(driven)},
             {"tool", found.tool->id},
             {"name", found.tool->name},
-            {"drive", drive_text(driven.fastener)},
             {"use", found.access.use->name},
             {"at", json_of(found.at)},
             {"from", json_of(found.axis)},
@@ -321,7 +301,20 @@ class Judge {
             {"swing", found.access.use->swing}};
   }
 
-  void report(const Driven& driven, const Answer& a, std::optional<PartId> partner) {
+  /// Where only facets overlap it may go in by hand: that costs nothing.
+  void report_pressed(const Driven& driven, const Answer& a, PartId partner) {
+    if (!a.reaches()) return driven.sure ? report_blocked(driven, a) : void();
+    if (driven.sure) take_up(a);
+    const std::string use = use_text(*a.turning.tool, *a.turning.access.use);
+    std::string text =
+        fmt::format("{} has no play in '{}': {}{}, from {}.", label(name(driven), driven), name(partner),
+                    driven.sure ? "" : "if it does not go in by hand, ", use, direction_text(a.turning.axis));
+    json data = place_of(driven, a.turning);
+    if (!driven.sure) data["by_hand"] = true;
+    note("tool", std::move(text), driven, std::move(data));
+  }
+
+  void report(const Driven& driven, const Answer& a) {
     if (!a.reaches()) return report_blocked(driven, a);
     take_up(a);
     const Driven& turned = *a.task.turned;
@@ -341,13 +334,13 @@ class Judge {
       if (grip.swing > 0) text += fmt::format(", handle to {}", direction_text(a.holding.access.handle));
       data["hold"] = place_of(held, a.holding);
       data["hold"].erase("swing");
+      data["hold"]["drive"] = drive_text(held.fastener);
     } else if (a.task.kept_by) {
       text += fmt::format("; its other end cannot turn in '{}'", name(*a.task.kept_by));
       data["kept_by"] = name(*a.task.kept_by);
     } else if (a.task.hold_unknown) {
       text += "; how its other end is held was not checked: its drive is not recognised";
     }
-    if (driven.pressed) text += fmt::format("; it has no play in '{}'", name(*partner));
     note("tool", text + ".", driven, std::move(data));
   }
 

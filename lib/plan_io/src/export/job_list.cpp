@@ -48,19 +48,24 @@ std::string stated(const PartKind& kind, std::string_view key) {
   return key == "; torque " ? rest.substr(0, rest.find(" N m")) : rest;
 }
 
-/// The tool on one end, as a note has it.
+std::string text_in(const json& data, const char* key) {
+  return data.contains(key) && data[key].is_string() ? data[key].get<std::string>() : std::string();
+}
+
+/// What a note of `tool_access` says; null: it is of another kind.
+json data_of(const StepNote& note) {
+  if (!note.kind.starts_with("tool_access.")) return nullptr;
+  json data = json::parse(note.data, nullptr, false);
+  return data.is_object() ? data : json(nullptr);
+}
+
+/// The tool on one end.
 struct Use {
-  std::string part, id, name, drive;
+  std::string part, id, name;
 };
-std::vector<Use> uses_in(const StepNote& note) {
-  if (note.kind != "tool_access.tool") return {};
-  const json data = json::parse(note.data, nullptr, false);
-  if (!data.is_object()) return {};
-  const auto text = [](const json& from, const char* key) {
-    return from.contains(key) && from[key].is_string() ? from[key].get<std::string>() : std::string();
-  };
-  const auto use = [&](const json& from, const char* part) {
-    Use out{text(from, part), text(from, "tool"), text(from, "name"), text(from, "drive")};
+std::vector<Use> uses_in(const json& data) {
+  const auto use = [](const json& from, const char* part) {
+    Use out{text_in(from, part), text_in(from, "tool"), text_in(from, "name")};
     if (out.name.empty()) out.name = out.id;
     return out;
   };
@@ -120,14 +125,21 @@ class Job {
     for (const PlanMove& move : step.moves) step_of_.try_emplace(move.part, number);
     for (const PlanVerdict& verdict : step.checks)
       for (const StepNote& note : verdict.notes)
-        for (const Use& use : uses_in(note)) {
-          add_new(tools_[use.part], use.name);
-          if (!use.drive.empty()) drive_[use.part] = use.drive;
-          auto tool =
-              std::find_if(list_.tools.begin(), list_.tools.end(), [&](const JobTool& t) { return t.id == use.id; });
-          if (tool == list_.tools.end()) tool = list_.tools.insert(tool, {use.id, use.name, {}});
-          if (tool->steps.empty() || tool->steps.back() != number) tool->steps.push_back(number);
-        }
+        if (const json data = data_of(note); !data.is_null()) look_at(data, note.kind == "tool_access.tool", number);
+  }
+
+  void look_at(const json& data, bool has_tool, std::size_t number) {
+    if (const std::string drive = text_in(data, "drive"); !drive.empty()) drive_[text_in(data, "part")] = drive;
+    if (!has_tool || data.contains("by_hand")) return;
+    if (data.contains("hold") && data["hold"].is_object())
+      drive_[text_in(data["hold"], "part")] = text_in(data["hold"], "drive");
+    for (const Use& use : uses_in(data)) {
+      add_new(tools_[use.part], use.name);
+      auto tool =
+          std::find_if(list_.tools.begin(), list_.tools.end(), [&](const JobTool& t) { return t.id == use.id; });
+      if (tool == list_.tools.end()) tool = list_.tools.insert(tool, {use.id, use.name, {}});
+      if (tool->steps.empty() || tool->steps.back() != number) tool->steps.push_back(number);
+    }
   }
 
   void add_fasteners() {
