@@ -19,7 +19,7 @@ bool says(const std::vector<std::string>& lines, const std::string& text) {
 }
 
 template <class Law>
-void for_plans(Law law) {
+void for_accounts(Law law) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     Rng rng(seed);
     std::vector<std::pair<std::string, Mesh>> meshes;
@@ -30,7 +30,7 @@ void for_plans(Law law) {
 }
 
 TEST(PlanAccount, EveryStepIsCheckedOrNot) {
-  for_plans([](const Plan& plan, Rng&) {
+  for_accounts([](const Plan& plan, Rng&) {
     const PlanAccount told = account_of(plan);
     const std::size_t forced = plan.forced_steps(), good = plan.disassembly.size() - forced;
     const auto steps = [](std::size_t n) {
@@ -45,7 +45,7 @@ TEST(PlanAccount, EveryStepIsCheckedOrNot) {
 }
 
 TEST(PlanAccount, AcceptedStepsAreAssumedAndNotOpen) {
-  for_plans([](Plan plan, Rng&) {
+  for_accounts([](Plan plan, Rng&) {
     for (PlanStep& step : plan.disassembly)
       if (step.forced) step.forced->accepted = "snap";
     const PlanAccount told = account_of(plan);
@@ -55,7 +55,7 @@ TEST(PlanAccount, AcceptedStepsAreAssumedAndNotOpen) {
 }
 
 TEST(PlanAccount, EachCheckSaysHowManyStepsItJudgedAndWhyNot) {
-  for_plans([](Plan plan, Rng& rng) {
+  for_accounts([](Plan plan, Rng& rng) {
     EXPECT_EQ(says(account_of(plan).not_checked, "what must be held"), !plan.disassembly.empty());
     PlanObjectiveItem item{.type = "gravity"};
     item.parameters = {{"friction", 0.4}, {"density", std::string()}};

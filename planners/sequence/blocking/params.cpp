@@ -70,8 +70,10 @@ void BlockingParams::describe(Schema<BlockingParams>& s) {
        .min = 0,
        .max = 1,
        .doc = "A part is held by a snap fit if a straight motion out cuts in by no more than this share of the smaller "
-              "part. It has to bend, so it is searched for to depth 1 only, if parts may be forced (run.force). 0: "
-              "no part."});
+              "part. It has to bend: when a few deep searches of such parts have found nothing, the others are "
+              "searched for to depth 1 only, if parts may be forced (run.force). 0: no part."});
+  s.advanced("snap_failures", &BlockingParams::snap_failures, {1, 1000});
+  s.advanced("snap_depth", &BlockingParams::snap_depth, {2, 1000});
   s.advanced("snap_directions", &BlockingParams::snap_directions, {1, 1000});
   s.advanced("pair_depth", &BlockingParams::pair_depth, {1});
 }

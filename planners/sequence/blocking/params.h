@@ -94,10 +94,12 @@ struct PathSearchParams {
 
 /// Parts that a snap fit holds.
 struct SnapParams {
-  /// A part is held by a snap fit if a straight motion cuts in by no more than this share of the diagonal of the smaller
-  /// part, and by less than half a wall. It is searched for to depth 1. Used only if parts may be forced (`run.force`).
-  /// 0: no part.
+  /// A part is held by a snap fit if a straight motion cuts in by no more than this share of the diagonal of the
+  /// smaller part, and by less than half a wall. After `snap_failures` it is searched for to depth 1. Used only if
+  /// parts may be forced (`run.force`). 0: no part.
   double snap_share = 0.1;
+  unsigned snap_failures = 4;    ///< Parts whose deep searches found nothing, before there are no more.
+  unsigned snap_depth = 4;       ///< Smallest depth of a search that counts as deep.
   unsigned snap_directions = 6;  ///< Largest number of directions that are measured for one part.
 };
 

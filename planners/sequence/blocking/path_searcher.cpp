@@ -40,7 +40,7 @@ bool PathSearcher::search_each(GroupState& group, const Subassemblies& ids, unsi
 }
 
 bool PathSearcher::search(GroupState& group, SubassemblyId id, unsigned depth, const Subassemblies& next) {
-  if (depth != 1 && snaps_.holds(group, id)) depth = 1;
+  if (depth != 1 && snaps_.convinces(group, id)) depth = 1;
   const Attempt attempt = history_.attempt_for(group, id, depth);
   const PartId part = state_.part_of(id);
   RunContext& context = state_.context();
@@ -60,6 +60,7 @@ bool PathSearcher::search(GroupState& group, SubassemblyId id, unsigned depth, c
     state_.count("resumed");
     state_.count("spared_steps", static_cast<double>(spared));
   }
+  if (!state_.context().should_stop()) snaps_.searched(group, id, depth, is_success(result.outcome()));
   if (is_success(result.outcome())) {
     lookahead_.after_success(group, attempt);
     state_.commit(group, {id}, attempt, answer, GroupChange::Kind::removed);
@@ -68,7 +69,9 @@ bool PathSearcher::search(GroupState& group, SubassemblyId id, unsigned depth, c
   }
   Outcome outcome = result.outcome();
   std::string message = result.message;
-  if (const auto snap = outcome == Outcome::depth_limit && depth == 1 ? snaps_.holding(group, id) : std::nullopt) {
+  if (const auto snap = outcome == Outcome::depth_limit && depth == 1 && snaps_.convinces(group, id)
+                            ? snaps_.holding(group, id)
+                            : std::nullopt) {
     outcome = Outcome::exhausted;  // not searched deeper
     state_.count("snap_fits");
     message += (message.empty() ? "'" : "; '") + state_.assembly().parts[snap->part].name + "' and '" +

@@ -30,7 +30,7 @@ Run::Run(const BlockingParams& params, const SequenceQuery& query, PathOracle& o
     state_.add_listener(*straight_);
   }
   lookahead_ = std::make_unique<Lookahead>(state_, history_, oracle);
-  snaps_ = std::make_unique<SnapFits>(state_, oracle, straight_.get(), params);
+  snaps_ = std::make_unique<SnapFits>(state_, oracle, straight_.get(), params, !query.said.empty());
   searcher_ = std::make_unique<PathSearcher>(state_, history_, *lookahead_, oracle, straight_.get(), *snaps_);
   make_strategies();
 }

@@ -20,6 +20,14 @@ std::optional<MotionDepth> SnapFits::holding(const GroupState& group, Subassembl
   return deepest;
 }
 
+void SnapFits::searched(const GroupState& group, SubassemblyId id, unsigned depth, bool found) {
+  if (convinced() || (depth > 0 && depth < params_.snap_depth) || !holding(group, id)) return;
+  if (found)
+    failed_.clear();
+  else
+    failed_.insert(id);
+}
+
 std::optional<MotionDepth> SnapFits::alone(const GroupState& group, SubassemblyId id) {
   if (!(params_.snap_share > 0) || straight_ == nullptr || oracle_.forcing() == nullptr || !state_.is_single(id) ||
       state_.assembly().parts.size() < 3)

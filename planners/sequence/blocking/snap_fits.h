@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -18,19 +19,26 @@ namespace dismantle::blocking {
 /// A part is held by a snap fit when some straight motion out of its group cuts in by little at every pair: by no more
 /// than a share of the smaller part, and by less than parts that go through each other's walls. Such parts bend when
 /// they are put together. A part is held so, too, if all others of its group are. No rigid motion takes most of them
-/// out, so they are searched for to depth 1 only, and left to forced steps. Without these (`run.force: off`, `bench`)
-/// no part counts as held so, nor in an assembly of two parts.
+/// out. When a few deep searches of such parts have found nothing, the others are searched for to depth 1 only, and
+/// left to forced steps. Without these (`run.force: off`, `bench`) no part counts as held so, nor in an assembly of two
+/// parts.
 class SnapFits {
  public:
-  /// `straight`: null when switched off; then no part counts. All must outlive this.
-  SnapFits(const DisassemblyState& state, PathOracle& oracle, StraightMotion* straight, const SnapParams& params)
-      : state_(state), oracle_(oracle), straight_(straight), params_(params) {}
+  /// `straight`: null when switched off; then no part counts. `known_before`: an earlier planner of the run has
+  /// searched for the parts that are left. All must outlive this.
+  SnapFits(const DisassemblyState& state, PathOracle& oracle, StraightMotion* straight, const SnapParams& params,
+           bool known_before)
+      : state_(state), oracle_(oracle), straight_(straight), params_(params), known_before_(known_before) {}
 
   /// The deepest place of the motion that cuts in least, of those that were measured; nullopt: not held by a snap fit.
   std::optional<MotionDepth> holding(const GroupState& group, SubassemblyId id);
-  bool holds(const GroupState& group, SubassemblyId id) { return holding(group, id).has_value(); }
+  /// Whether to search no deeper: it is held so, and enough deep searches of parts that are held so found nothing.
+  bool convinces(const GroupState& group, SubassemblyId id) { return convinced() && holding(group, id).has_value(); }
+  /// Records a search: what searches of at least `snap_depth` for parts that are held so find, decides for the others.
+  void searched(const GroupState& group, SubassemblyId id, unsigned depth, bool found);
 
  private:
+  bool convinced() const { return known_before_ || failed_.size() >= params_.snap_failures; }
   /// By motions of this part alone.
   std::optional<MotionDepth> alone(const GroupState& group, SubassemblyId id);
   double deepest_snap(PartId part, PartId other) const;
@@ -45,6 +53,8 @@ class SnapFits {
   /// By part and the others of its group, in one arrangement.
   std::map<std::pair<SubassemblyId, Subassemblies>, std::optional<MotionDepth>> known_;
   std::uint64_t arrangement_ = 0;
+  bool known_before_;                 ///< an earlier planner of the run was convinced, or has left parts
+  std::set<SubassemblyId> failed_{};  ///< parts whose deep searches found nothing, since one found something
 };
 
 }  // namespace dismantle::blocking

@@ -42,8 +42,8 @@ class TranslationSearch {
   struct Answer {
     End end = End::unsuited;
     std::vector<Translation> translations;  ///< the last has infinite length
-    std::size_t states = 0;   ///< visited
-    std::size_t waiting = 0;  ///< found and not visited
+    std::size_t states = 0;                 ///< visited
+    std::size_t waiting = 0;                ///< found and not visited
   };
   /// Visits up to `most_states` states (else `limit`) and compares up to `most_work` pairs of edges (else `too_long`).
   /// Measured lengths are cached, so a later search with more work resumes. `unsuited`: more than 64 parts, or a part

@@ -44,9 +44,31 @@ unsigned most_of(const std::map<PartId, unsigned>& searches) {
   return most;
 }
 
-TEST(SnapFits, AreSearchedForToDepthOneIfPartsMayBeForced) {
-  EXPECT_EQ(most_of(deepest_searches(clipped(0.1), ForceWhen::last_resort)), 1u);
-  EXPECT_GT(most_of(deepest_searches(clipped(0.1), ForceWhen::off)), 1u);
+/// Several of them side by side.
+Assembly clipped_row(unsigned count) {
+  std::vector<Mesh> parts;
+  for (unsigned k = 0; k < count; ++k)
+    for (const Part& part : clipped(0.1, false).parts) {
+      Mesh mesh = *part.mesh;
+      for (Eigen::Vector3d& v : mesh.vertices) v.x() += 4.0 * k;
+      parts.push_back(std::move(mesh));
+    }
+  return shapes::assembly_of(parts);
+}
+
+std::size_t searched_deeply(const std::map<PartId, unsigned>& searches) {
+  return static_cast<std::size_t>(std::ranges::count_if(searches, [](const auto& s) { return s.second >= 4; }));
+}
+
+TEST(SnapFits, AFewDeepSearchesDecideForTheOthersIfPartsMayBeForced) {
+  for (const unsigned count : {3u, 6u}) {
+    EXPECT_LE(searched_deeply(deepest_searches(clipped_row(count), ForceWhen::last_resort)), 4u) << count;
+    EXPECT_GT(searched_deeply(deepest_searches(clipped_row(count), ForceWhen::off)), 4u) << count;
+  }
+}
+
+TEST(SnapFits, FewPartsAreSearchedForDeeply) {
+  EXPECT_GT(most_of(deepest_searches(clipped(0.1), ForceWhen::last_resort)), 1u);
 }
 
 TEST(SnapFits, AreNoDeepCuts) { EXPECT_GT(most_of(deepest_searches(clipped(0.8), ForceWhen::last_resort)), 1u); }
