@@ -99,7 +99,7 @@ struct SnapParams {
   /// parts may be forced (`run.force`). 0: no part.
   double snap_share = 0.1;
   unsigned snap_failures = 4;    ///< Parts whose deep searches found nothing, before there are no more.
-  unsigned snap_depth = 4;       ///< Smallest depth of a search that counts as deep.
+  unsigned snap_depth = 2;       ///< Smallest depth of a search that counts as deep.
   unsigned snap_directions = 6;  ///< Largest number of directions that are measured for one part.
 };
 

@@ -57,7 +57,7 @@ Assembly clipped_row(unsigned count) {
 }
 
 std::size_t searched_deeply(const std::map<PartId, unsigned>& searches) {
-  return static_cast<std::size_t>(std::ranges::count_if(searches, [](const auto& s) { return s.second >= 4; }));
+  return static_cast<std::size_t>(std::ranges::count_if(searches, [](const auto& s) { return s.second >= 2; }));
 }
 
 TEST(SnapFits, AFewDeepSearchesDecideForTheOthersIfPartsMayBeForced) {
