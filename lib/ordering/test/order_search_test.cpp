@@ -86,7 +86,7 @@ double cheapest(Random& problem, const UnitSet& left, VariantId last, std::size_
   return best;
 }
 
-Task whole(const Random& problem) {
+Task whole(const Problem& problem) {
   Task task;
   task.start = UnitSet(problem.units(), true);
   return task;
@@ -157,6 +157,52 @@ TEST(OrderSearch, BeamAndWindowsGiveOrdersThatAreFeasible) {
       left = left - problem.leaving(v);
     }
     EXPECT_EQ(left.size(), 1u) << seed;
+  }
+}
+
+/// A ring of units: a state costs as much as its arcs have ends. What a step leaves behind costs in the next one.
+class Ring final : public Problem {
+ public:
+  explicit Ring(std::size_t units) {
+    for (std::size_t u = 0; u < units; ++u) {
+      UnitSet one(units);
+      one.insert(u);
+      leaving_.push_back(one);
+      own_.push_back({u});
+    }
+  }
+  std::size_t units() const override { return own_.size(); }
+  const std::vector<VariantId>& variants_of(std::size_t unit) const override { return own_[unit]; }
+  bool leaves_alone(std::size_t) const override { return true; }
+  const UnitSet& leaving(VariantId v) const override { return leaving_[v]; }
+  bool may_leave(VariantId, const UnitSet&) override { return true; }
+  const UnitSet& blocking(VariantId) override { return none_; }
+  double cost(VariantId v, const UnitSet& rest, VariantId) override {
+    const auto there = [&](std::size_t place) {
+      const std::size_t u = 7 * place % units();  // units side by side in the ring are not so by number
+      return u == v || rest.contains(u);
+    };
+    double ends = 0;
+    for (std::size_t p = 0; p < units(); ++p) ends += there(p) != there((p + 1) % units()) ? 1 : 0;
+    return ends;
+  }
+  double least(VariantId) const override { return 0; }
+  std::uint64_t classes(VariantId) const override { return 1; }
+  double change() const override { return 0; }
+  bool alike(VariantId, VariantId) const override { return true; }
+
+ private:
+  UnitSet none_{0};
+  std::vector<UnitSet> leaving_;
+  std::vector<std::vector<VariantId>> own_;
+};
+
+TEST(OrderSearch, TheBeamOpensARingInOnePlace) {
+  for (const std::size_t units : {9u, 12u, 16u}) {
+    Ring problem(units);
+    Effort effort{400 * units};
+    const Order found = beam(problem, whole(problem), effort);
+    EXPECT_EQ(found.cost, 2.0 * static_cast<double>(units - 2)) << units;  // all states but the first and the last
   }
 }
 
