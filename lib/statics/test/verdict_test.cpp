@@ -5,7 +5,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
+#include <utility>
 
 #include "dismantle/statics/certificates.h"
 #include "dismantle/statics/holds.h"
@@ -109,6 +111,48 @@ TEST(Verdict, IsTheSameForAPileThatIsTurnedScaledAndRenamed) {
     std::reverse(moved.begin() + 1, moved.end());
     Pile other = pile_of(moved, 1, 0.4);
     other.down = turn * pile.down;
+    EXPECT_EQ(verdict_of(other), verdict) << trial;
+  }
+  EXPECT_GT(standing, 5);
+  EXPECT_LT(standing, 55);
+}
+
+/// The same solid: each triangle split at a point inside of it or on an edge, shared edges at the same point.
+Mesh triangulated_otherwise(const Mesh& mesh, std::mt19937& random) {
+  Mesh other;
+  other.vertices = mesh.vertices;
+  std::uniform_real_distribution<double> share(0.2, 0.8);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> between;
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    const auto [at, is_new] = between.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(other.vertices.size()));
+    if (is_new) {
+      const double t = share(random);
+      other.vertices.push_back(t * mesh.vertices[std::min(a, b)] + (1 - t) * mesh.vertices[std::max(a, b)]);
+    }
+    return at->second;
+  };
+  for (const Triangle& t : mesh.triangles) {
+    const std::uint32_t ab = middle(t[0], t[1]), bc = middle(t[1], t[2]), ca = middle(t[2], t[0]);
+    for (const Triangle& piece : {Triangle{t[0], ab, ca}, Triangle{ab, t[1], bc}, Triangle{ca, bc, t[2]}})
+      other.triangles.push_back(piece);
+    other.triangles.push_back({ab, bc, ca});
+  }
+  return other;
+}
+
+TEST(Verdict, IsTheSameForAPileThatIsTriangulatedOtherwiseAndInOtherUnits) {
+  std::mt19937 random(13);
+  int standing = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    std::vector<Mesh> meshes = random_blocks(random, 2 + static_cast<int>(random() % 7));
+    const Verdict verdict = verdict_of(pile_of(meshes, 1, 0.4));
+    standing += verdict == Verdict::stands;
+    for (Mesh& m : meshes) {
+      m = triangulated_otherwise(m, random);
+      for (Vec3& v : m.vertices) v *= 0.001;  // metres instead of millimetres
+    }
+    Pile other = pile_of(meshes, 1, 0.4);
+    for (Body& b : other.bodies) b.weight *= 7.85e9;  // and of another material
     EXPECT_EQ(verdict_of(other), verdict) << trial;
   }
   EXPECT_GT(standing, 5);
