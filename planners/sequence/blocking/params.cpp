@@ -75,6 +75,7 @@ void BlockingParams::describe(Schema<BlockingParams>& s) {
   s.advanced("snap_failures", &BlockingParams::snap_failures, {1, 1000});
   s.advanced("snap_depth", &BlockingParams::snap_depth, {2, 1000});
   s.advanced("snap_directions", &BlockingParams::snap_directions, {1, 1000});
+  s.advanced("snap_group", &BlockingParams::snap_group);
   s.advanced("pair_depth", &BlockingParams::pair_depth, {1});
 }
 

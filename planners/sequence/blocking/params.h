@@ -98,9 +98,10 @@ struct SnapParams {
   /// smaller part, and by less than half a wall. After `snap_failures` it is searched for to depth 1. Used only if
   /// parts may be forced (`run.force`). 0: no part.
   double snap_share = 0.1;
-  unsigned snap_failures = 4;    ///< Parts whose deep searches found nothing, before there are no more.
-  unsigned snap_depth = 2;       ///< Smallest depth of a search that counts as deep.
-  unsigned snap_directions = 6;  ///< Largest number of directions that are measured for one part.
+  unsigned snap_failures = 4;     ///< Parts whose deep searches found nothing, before there are no more.
+  unsigned snap_depth = 2;        ///< Smallest depth of a search that counts as deep.
+  unsigned snap_directions = 24;  ///< Largest number of directions that are measured for one part.
+  unsigned snap_group = 32;       ///< Largest group in which snap fits that hold each other are looked for.
 };
 
 }  // namespace blocking

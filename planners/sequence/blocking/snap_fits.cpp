@@ -8,16 +8,23 @@
 namespace dismantle::blocking {
 
 std::optional<MotionDepth> SnapFits::holding(const GroupState& group, SubassemblyId id) {
-  std::optional<MotionDepth> own = alone(group, id);
-  if (own || group.is_pair()) return own;
-  // What holds nothing but parts of snap fits is free when they are off: a plate with wheels, a torso with arms.
+  if (std::optional<MotionDepth> own = alone(group, id)) return own;
+  // What is free when such parts are off is held by them: a hand with a tool, a torso with arms, a plate with wheels.
+  if (group.members.size() > params_.snap_group) return std::nullopt;
+  GroupState left = group;
   std::optional<MotionDepth> deepest;
-  for (const SubassemblyId other : state_.others(group, {id})) {
-    std::optional<MotionDepth> snap = alone(group, other);
-    if (!snap) return std::nullopt;
-    if (!deepest || snap->excess() > deepest->excess()) deepest = std::move(snap);
+  for (bool any = true; any && left.members.size() > 1;) {
+    any = false;
+    for (const SubassemblyId other : Subassemblies(left.members)) {
+      std::optional<MotionDepth> snap = alone(left, other);
+      if (!snap) continue;
+      if (other == id) return snap;
+      std::erase(left.members, other);
+      if (!deepest || snap->excess() > deepest->excess()) deepest = std::move(snap);
+      any = true;
+    }
   }
-  return deepest;
+  return left.members.size() == 1 ? deepest : std::nullopt;
 }
 
 void SnapFits::searched(const GroupState& group, SubassemblyId id, unsigned depth, bool found) {

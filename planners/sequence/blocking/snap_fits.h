@@ -18,7 +18,7 @@ namespace dismantle::blocking {
 
 /// A part is held by a snap fit when some straight motion out of its group cuts in by little at every pair: by no more
 /// than a share of the smaller part, and by less than parts that go through each other's walls. Such parts bend when
-/// they are put together. A part is held so, too, if all others of its group are. No rigid motion takes most of them
+/// they are put together. What is free when such parts are off is held so, too. No rigid motion takes most of them
 /// out. When a few deep searches of such parts have found nothing, the others are searched for to depth 1 only, and
 /// left to forced steps. Without these (`run.force: off`, `bench`) no part counts as held so, nor in an assembly of two
 /// parts.

@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
+#include <tuple>
 
 #include "run_blocking.h"
 
 namespace dismantle {
 namespace {
 
-/// A block in a case, under a lip on all four sides that covers its rim, and a box beside them.
-Assembly clipped(double lip, bool with_box = true) {
+/// Open above, with a lip on all four sides that covers the rim of a block of 2 x 2 x 1 in it.
+Mesh case_with_lip(double lip) {
   Mesh made = shapes::box({-2, -2, -1}, {2, 2, 0});
   for (const auto& [z0, z1, inner] : {std::tuple(0.0, 1.0, 1.0), std::tuple(1.0, 1.4, 1 - lip)}) {
     made = shapes::joined(made, shapes::box({-2, -2, z0}, {-inner, 2, z1}));
@@ -18,7 +20,14 @@ Assembly clipped(double lip, bool with_box = true) {
     made = shapes::joined(made, shapes::box({-inner, -2, z0}, {inner, -inner, z1}));
     made = shapes::joined(made, shapes::box({-inner, inner, z0}, {inner, 2, z1}));
   }
-  std::vector<Mesh> parts{made, shapes::box({-1, -1, 0}, {1, 1, 1})};
+  return made;
+}
+
+Mesh block() { return shapes::box({-1, -1, 0}, {1, 1, 1}); }
+
+/// A block in a case, and a box beside them.
+Assembly clipped(double lip, bool with_box = true) {
+  std::vector<Mesh> parts{case_with_lip(lip), block()};
   if (with_box) parts.push_back(shapes::box({2, -2, -1}, {3, 2, 0}));
   return shapes::assembly_of(parts);
 }
@@ -69,6 +78,22 @@ TEST(SnapFits, AFewDeepSearchesDecideForTheOthersIfPartsMayBeForced) {
 
 TEST(SnapFits, FewPartsAreSearchedForDeeply) {
   EXPECT_GT(most_of(deepest_searches(clipped(0.1), ForceWhen::last_resort)), 1u);
+}
+
+TEST(SnapFits, HoldAlsoWhatIsFreeWithoutThem) {
+  // Two cases in one part, open in different directions: it leaves neither block in a straight line. Three of them.
+  const Pose beside{{-6, 0, 0}, Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX()))};
+  std::vector<Mesh> parts;
+  for (int k = 0; k < 3; ++k) {
+    const Pose place{{0, 12.0 * k, 0}, Eigen::Quaterniond::Identity()};
+    parts.push_back(
+        shapes::moved(shapes::joined(case_with_lip(0.1), shapes::moved(case_with_lip(0.1), beside)), place));
+    parts.push_back(shapes::moved(block(), place));
+    parts.push_back(shapes::moved(block(), place * beside));
+  }
+  const Assembly made = shapes::assembly_of(parts);
+  EXPECT_LE(searched_deeply(deepest_searches(made, ForceWhen::last_resort)), 4u);
+  EXPECT_GT(searched_deeply(deepest_searches(made, ForceWhen::off)), 4u);
 }
 
 TEST(SnapFits, AreNoDeepCuts) { EXPECT_GT(most_of(deepest_searches(clipped(0.8), ForceWhen::last_resort)), 1u); }
