@@ -26,7 +26,8 @@ struct ReplayOptions {
 /// The assembly with its reference order, and the plan that the order is compared with, if there is one.
 struct Loaded {
   Assembly assembly;
-  std::optional<Plan> plan;
+  std::optional<Plan> plan{};
+  LoadedAssembly model{};  ///< of which there is no plan yet
 };
 
 std::vector<ReferenceStep> order_from(const std::string& file, const Assembly& assembly) {
@@ -99,9 +100,9 @@ Loaded load(const ReplayOptions& options, const Session& session, RunContext& co
     }
     return {std::move(loaded.assembly), std::move(loaded.plan)};
   }
-  const LoadedAssembly loaded = session.load(options.input, context);
-  Loaded out{*loaded.assembly, {}};
-  if (!options.no_plan) out.plan = session.plan(loaded, context).plan;
+  LoadedAssembly model = session.load(options.input, context);
+  Loaded out{*model.assembly};
+  out.model = std::move(model);
   return out;
 }
 
@@ -135,6 +136,14 @@ int replay_order(const ReplayOptions& options) {
   }
   text += fmt::format("{} of {} insertions of the order are possible, {} refused\n", items.size() - refused,
                       items.size(), refused);
+  console.text(text);  // planning may take long
+  text.clear();
+  if (!loaded.plan && !options.no_plan) {
+    if (const double timeout = session.config().run.timeout; timeout > 0)
+      context.deadline = Deadline::after_seconds(timeout);
+    loaded.plan = session.plan(loaded.model, context).plan;
+    console.end_progress();
+  }
   nlohmann::ordered_json json = {{"status", refused == 0 ? "complete" : "partial"},
                                  {"reason", refused == 0 ? nlohmann::ordered_json() : nlohmann::ordered_json("refused")},
                                  {"parts", assembly.parts.size()},
@@ -177,7 +186,7 @@ void add_replay(CLI::App& app, Action& action) {
   command->footer(
       "Goes through the order backwards, with sub-models as groups. What a step puts in is pulled straight out of what\n"
       "is there, and the verifier confirms it. A refused one is explained: pair, depth, place. Writes nothing.\n"
-      "A model is planned, too, to say how much the two orders agree (Kendall's tau-b, 1 = the same order).\n"
+      "Then a model is planned to say how much the two orders agree (Kendall's tau-b, 1 = the same order).\n"
       "Exit status: 0 all steps are possible, 1 some are refused.\n"
       "Examples:\n  dismantle replay truck.mpd\n  dismantle replay out/plan.json --order mine.csv");
   command->callback([&action, options] { action = [options] { return replay_order(*options); }; });

@@ -307,8 +307,8 @@ class Judge {
     if (driven.sure) take_up(a);
     const std::string use = use_text(*a.turning.tool, *a.turning.access.use);
     std::string text =
-        fmt::format("{} has no play in '{}': {}{}, from {}.", label(name(driven), driven), name(partner),
-                    driven.sure ? "" : "if it does not go in by hand, ", use, direction_text(a.turning.axis));
+        fmt::format("{} has no play in '{}': {}{}, {}.", label(name(driven), driven), name(partner),
+                    driven.sure ? "" : "if it does not go in by hand, ", use, from_text(a.turning.axis, q_.up));
     json data = place_of(driven, a.turning);
     if (!driven.sure) data["by_hand"] = true;
     note("tool", std::move(text), driven, std::move(data));
@@ -319,19 +319,15 @@ class Judge {
     take_up(a);
     const Driven& turned = *a.task.turned;
     const tools::Use& use = *a.turning.access.use;
-    std::string text = fmt::format("{}: {}, from {}", label(name(turned), turned), use_text(*a.turning.tool, use),
-                                   direction_text(a.turning.axis));
-    if (use.swing > 0)
-      text += fmt::format(", handle to {}, {:.0f} degrees between two grips", direction_text(a.turning.access.handle),
-                          use.swing * 180 / std::numbers::pi);
+    std::string text = fmt::format("{}: {}, {}", label(name(turned), turned), use_text(*a.turning.tool, use),
+                                   from_text(a.turning.axis, q_.up));
+    if (use.swing > 0) text += fmt::format(", {:.0f} degrees at a time", use.swing * 180 / std::numbers::pi);
     json data = place_of(turned, a.turning);
     if (&turned != &driven) data["turned"] = name(turned);
     if (a.task.held != nullptr) {
       const Driven& held = *a.task.held;
-      const tools::Use& grip = *a.holding.access.use;
-      text += fmt::format("; hold {} with {}, from {}", label(name(held), held), use_text(*a.holding.tool, grip),
-                          direction_text(a.holding.axis));
-      if (grip.swing > 0) text += fmt::format(", handle to {}", direction_text(a.holding.access.handle));
+      text += fmt::format("; hold {} with {}, {}", label(name(held), held),
+                          use_text(*a.holding.tool, *a.holding.access.use), from_text(a.holding.axis, q_.up));
       data["hold"] = place_of(held, a.holding);
       data["hold"].erase("swing");
       data["hold"]["drive"] = drive_text(held.fastener);

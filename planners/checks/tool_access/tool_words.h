@@ -13,9 +13,16 @@
 
 namespace dismantle::checks {
 
-inline std::string direction_text(const Eigen::Vector3d& d) {
+/// "from above", "from -x", "from (0.6, 0, 0.8)": where a tool comes from, while the assembly lies with `up` upwards.
+/// `from`, `up`: unit vectors.
+inline std::string from_text(const Eigen::Vector3d& from, const Eigen::Vector3d& up) {
+  constexpr double same = 0.9998;  // cosine of a degree
+  if (from.dot(up) > same) return "from above";
+  if (from.dot(up) < -same) return "from below";
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(from[k]) > same) return fmt::format("from {}{}", from[k] > 0 ? '+' : '-', "xyz"[k]);
   const auto rounded = [](double x) { return std::round(x * 100) / 100 + 0.0; };
-  return fmt::format("({:g}, {:g}, {:g})", rounded(d.x()), rounded(d.y()), rounded(d.z()));
+  return fmt::format("from ({:g}, {:g}, {:g})", rounded(from.x()), rounded(from.y()), rounded(from.z()));
 }
 
 /// "'a', 'b' and 'c'".
