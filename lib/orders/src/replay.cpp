@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -24,7 +25,11 @@ class Replay {
  public:
   Replay(const Assembly& assembly, const std::vector<ReferenceStep>& order, const Verifier& verifier,
          const RunContext& context)
-      : assembly_(assembly), order_(order), verifier_(verifier), context_(context), groups_(order),
+      : assembly_(assembly),
+        order_(order),
+        verifier_(verifier),
+        context_(context),
+        groups_(order),
         meter_(assembly, verifier) {
     Aabb all;
     for (const Part& part : assembly.parts) all.extend(part.mesh->box());
@@ -75,8 +80,8 @@ class Replay {
         continue;
       }
       for (ReplayedItem& item : items) explain(item, without(left, item.parts));
-      const auto least = std::min_element(items.begin(), items.end(),
-                                          [](const auto& a, const auto& b) { return a.depth < b.depth; });
+      const auto least =
+          std::min_element(items.begin(), items.end(), [](const auto& a, const auto& b) { return a.depth < b.depth; });
       left = without(left, least->parts);
       out_.push_back(std::move(*least));
       items.erase(least);
@@ -95,35 +100,66 @@ class Replay {
     return {std::vector<Pose>(item.parts.size()), std::vector<Pose>(item.parts.size(), Pose{far_ * along, Pose{}.q})};
   }
 
-  bool leaves(ReplayedItem& item, const std::vector<PartId>& rest) const {
-    const std::vector<PlacedPart> fixed = as_assembled(rest);
+  /// What is known of a straight motion out of what was there at some time. What is there later is part of it, so a
+  /// part that is still there is in the way as it was.
+  struct Straight {
+    std::optional<PartId> blocker{};   ///< a part that the verifier refused
+    std::optional<MotionDepth> cut{};  ///< the deepest pair
+    bool whole = false;                ///< `cut` is not only a lower bound
+  };
+
+  /// The motions along the own axes, both ways. `visit(direction, known)` returns whether to go on.
+  template <class Visit>
+  void for_directions(const ReplayedItem& item, Visit visit) {
+    std::size_t index = 0;
     for (const Eigen::Vector3d& axis : own_axes(item.parts, assembly_))
-      for (const double sign : {1.0, -1.0}) {
-        const Eigen::Vector3d out = sign * axis;
-        if (!verifier_.check_motion(item.parts, fixed, straight(item, out), context_).valid) continue;
+      for (const double sign : {1.0, -1.0})
+        if (!visit(Eigen::Vector3d(sign * axis), known_[{item.parts, index++}])) return;
+  }
+
+  static bool has(const std::vector<PartId>& sorted, PartId part) {
+    return std::binary_search(sorted.begin(), sorted.end(), part);
+  }
+
+  /// `rest`: ascending.
+  bool leaves(ReplayedItem& item, const std::vector<PartId>& rest) {
+    bool found = false;
+    for_directions(item, [&](const Eigen::Vector3d& out, Straight& known) {
+      if (known.blocker && has(rest, *known.blocker)) return true;
+      const MotionCheck check = verifier_.check_motion(item.parts, as_assembled(rest), straight(item, out), context_);
+      if (check.valid) {
         item.direction = -out;
-        return true;
+        found = true;
+      } else if (check.violation && !check.interrupted) {
+        known.blocker = has(rest, check.violation->other) ? check.violation->other : check.violation->part;
       }
-    return false;
+      return !found && !context_.should_stop();
+    });
+    return found;
   }
 
   /// Where it cuts in least.
   void explain(ReplayedItem& item, const std::vector<PartId>& rest) {
     double least = std::numeric_limits<double>::infinity();
-    for (const Eigen::Vector3d& axis : own_axes(item.parts, assembly_))
-      for (const double sign : {1.0, -1.0}) {
-        const Eigen::Vector3d out = sign * axis;
+    for_directions(item, [&](const Eigen::Vector3d& out, Straight& known) {
+      const bool holds = known.cut && has(rest, known.cut->other);
+      if (holds && known.cut->excess() >= least) return true;
+      if (!holds || !known.whole) {
         MotionDepthOptions options;
         options.stop_above = least;
-        const auto found = meter_.deepest(item.parts, as_assembled(rest), straight(item, out), options, context_);
-        if (!found || !(found->excess() < least)) continue;
-        least = found->excess();
-        item.direction = -out;
-        item.part = found->part;
-        item.other = found->other;
-        item.depth = found->excess();
-        item.at = found->point;
+        known.cut = meter_.deepest(item.parts, as_assembled(rest), straight(item, out), options, context_);
+        if (context_.should_stop()) return false;
+        known.whole = known.cut && known.cut->excess() <= least;
       }
+      if (!known.cut || !(known.cut->excess() < least)) return true;
+      least = known.cut->excess();
+      item.direction = -out;
+      item.part = known.cut->part;
+      item.other = known.cut->other;
+      item.depth = known.cut->excess();
+      item.at = known.cut->point;
+      return true;
+    });
   }
 
   const Assembly& assembly_;
@@ -134,6 +170,7 @@ class Replay {
   MotionDepthMeter meter_;
   double far_ = 1;  // after so far, everything is apart
   std::set<std::string> around_;
+  std::map<std::pair<std::vector<PartId>, std::size_t>, Straight> known_;  // by parts and number of the direction
   std::vector<ReplayedItem> out_;
 };
 
