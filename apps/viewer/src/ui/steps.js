@@ -36,7 +36,7 @@ function facts(app, index) {
   return element('div.facts-of', {}, rows.length > 0 ? element('dl.facts', {}, rows) : null,
     element('div.chips', {}, element('a.chip', {href: here, title: 'The address of this step'}, icon('link'), here),
       element('button.chip', {type: 'button', title: 'Print this step (P)', onclick: () => printStep(app)}, icon('print'), 'Print')),
-    element('details', {open: detailsOpen, ontoggle: event => { detailsOpen = event.target.open; }}, element('summary', {}, 'Details'), element('dl.facts', {}, details)));
+    element('details', {open: detailsOpen}, element('summary', {onclick: event => { detailsOpen = !event.currentTarget.parentElement.open; }}, 'Details'), element('dl.facts', {}, details)));
 }
 
 /** The line of a run: "3–6  4x screw". A click shows its steps, or hides them. */
