@@ -81,6 +81,25 @@ TEST(CheckAssembly, SlightOverlapsAreOneLineForPeopleAndAllThereForPrograms) {
   EXPECT_EQ(nlohmann::json::parse(findings_json(check)).at("findings").size(), 4u);
 }
 
+/// A plate of thickness 1 that is 0.02 deep in a block, and 0.004 deep: how deep that is for the plate, does not depend
+/// on how the assembly is turned.
+TEST(CheckAssembly, WhatIsSlightDoesNotDependOnThePose) {
+  Rng rng(3);
+  for (const double depth : {0.02, 0.004})
+    for (int trial = 0; trial < 4; ++trial) {
+      const Eigen::Quaterniond turn =
+          trial == 0 ? Eigen::Quaterniond::Identity()
+                     : Eigen::Quaterniond(rng.normal(), rng.normal(), rng.normal(), rng.normal()).normalized();
+      std::vector<RawPart> parts{raw_box("block", {-20, -20, -40}, {20, 20, 0}),
+                                 raw_box("plate", {-18, -18, -depth}, {18, 18, 1 - depth})};
+      for (RawPart& part : parts)
+        for (Eigen::Vector3d& v : part.mesh.vertices) v = turn * v;
+      const auto overlaps = of_kind(checked(std::move(parts)), FindingKind::overlap);
+      ASSERT_EQ(overlaps.size(), 1u);
+      EXPECT_EQ(overlaps[0].severity, depth > 0.01 ? Severity::warning : Severity::note) << depth << " trial " << trial;
+    }
+}
+
 /// With a kind it is a screw without its thread, else something to look at.
 TEST(CheckAssembly, ScrewsWithoutThreadsAreNotes) {
   for (const char* kind : {"screw", "shaft"}) {

@@ -184,6 +184,7 @@ class Geometry {
     parallel_phase(
         pairs.size(), context_, "overlaps", [&](std::size_t i) { found[i] = contact(pairs[i]); },
         [&](std::size_t i) { return name(pairs[i].a); });
+    UsualOverlaps usual(assembly_);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       if (!found[i]) continue;
       const PairContact& c = *found[i];
@@ -191,7 +192,7 @@ class Geometry {
           {name(pairs[i].a), name(pairs[i].b), c.depth / assembly_.normalization.scale, in_input(c.place)});
       const bool overlap = pairs[i].depth > 0;
       if (overlap || c.place.contact == ContactClass::duplicate)
-        check.findings.push_back(finding(pairs[i], check.contacts.back(), c, overlap));
+        check.findings.push_back(finding(pairs[i], check.contacts.back(), c, overlap, usual));
     }
   }
 
@@ -221,7 +222,8 @@ class Geometry {
     return place;
   }
 
-  Finding finding(const InitialOverlap& ids, const CheckedContact& pair, const PairContact& found, bool overlap) const {
+  Finding finding(const InitialOverlap& ids, const CheckedContact& pair, const PairContact& found, bool overlap,
+                  UsualOverlaps& usual) const {
     Finding finding;
     finding.kind = FindingKind::overlap;
     finding.parts = {pair.a, pair.b};
@@ -266,7 +268,7 @@ class Geometry {
                               : "nothing, if one of them bends there (clip, spring, seal) or this is rounding; else "
                                 "correct the model";
     }
-    if (finding.kind == FindingKind::overlap) excuse_usual_overlap(assembly_, ids, found, finding);
+    if (finding.kind == FindingKind::overlap) usual.excuse(ids, found, finding);
     return finding;
   }
 

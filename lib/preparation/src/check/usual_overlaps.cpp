@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "dismantle/geometry/mesh_measure.h"
+
 namespace dismantle {
 namespace {
 
@@ -16,8 +18,6 @@ constexpr double kLeaning = 0.02;
 /// Of the smallest extent of the smaller part.
 constexpr double kSlight = 0.005;
 
-double smallest_extent(const Part& part) { return part.mesh->box().size().minCoeff(); }
-
 bool is_threaded(const Part& part) {
   static const std::set<std::string> kinds = {"screw", "nut", "insert", "stand-off"};
   return part.kind && kinds.contains(part.kind->kind);
@@ -25,17 +25,22 @@ bool is_threaded(const Part& part) {
 
 }  // namespace
 
-void excuse_usual_overlap(const Assembly& assembly, const InitialOverlap& pair, const PairContact& found,
-                          Finding& finding) {
-  const Part &a = assembly.parts[pair.a], &b = assembly.parts[pair.b];
+double UsualOverlaps::smallest_extent(PartId part) {
+  const auto [known, fresh] = extents_.try_emplace(part, 0);
+  if (fresh) known->second = oriented_box(*assembly_.parts[part].mesh).minCoeff();
+  return known->second;
+}
+
+void UsualOverlaps::excuse(const InitialOverlap& pair, const PairContact& found, Finding& finding) {
   const bool around = finding.contact == ContactClass::uniform_interference && found.place.axis.has_value();
-  const auto fits = [&](const Part& part) {
-    return is_threaded(part) && found.depth <= (around ? kThreadDepth : kLeaning) * smallest_extent(part);
+  const double a = smallest_extent(pair.a), b = smallest_extent(pair.b);
+  const auto fits = [&](PartId part, double extent) {
+    return is_threaded(assembly_.parts[part]) && found.depth <= (around ? kThreadDepth : kLeaning) * extent;
   };
-  if (fits(a) || fits(b)) {
+  if (fits(pair.a, a) || fits(pair.b, b)) {
     finding.together = "overlap as screws and nuts without modelled threads do";
     finding.advice = "nothing: a plan turns or pulls them out within this overlap";
-  } else if (found.depth <= kSlight * std::min(smallest_extent(a), smallest_extent(b))) {
+  } else if (found.depth <= kSlight * std::min(a, b)) {
     finding.together = "overlap slightly, as parts drawn without play, press fits and rounded coordinates do";
     finding.advice = "nothing";
   } else {
