@@ -18,15 +18,7 @@ using namespace test;
 using Eigen::Vector3d;
 
 /// Parts in millimetres; M3 screws stand with their heads' undersides at z = 0.
-struct Stack {
-  std::vector<Mesh> meshes;
-  std::vector<std::string> names;
-  PartId add(const std::string& name, Mesh mesh, const Vector3d& at = Vector3d::Zero()) {
-    for (Vector3d& p : mesh.vertices) p += at;
-    meshes.push_back(std::move(mesh));
-    names.push_back(name);
-    return static_cast<PartId>(meshes.size() - 1);
-  }
+struct Stack : NamedMeshes {
   /// With a hexagon socket.
   PartId add_screw(const std::string& name, double length, const Vector3d& at = Vector3d::Zero()) {
     return add(name, screw({3, length, 5.5, 3, {}, polygon(6, 2.5), 1.5}), at - Vector3d(0, 0, length));

@@ -5,8 +5,11 @@
 #include <functional>
 #include <numbers>
 #include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "dismantle/assembly.h"
 #include "dismantle/mesh.h"
 
 namespace dismantle::fasteners::test {
@@ -141,5 +144,17 @@ inline Mesh placed(Mesh mesh, std::mt19937_64& random, double scale) {
   for (Eigen::Vector3d& p : mesh.vertices) p = scale * (turn * p + shift);
   return mesh;
 }
+
+/// The parts of a scene.
+struct NamedMeshes {
+  std::vector<Mesh> meshes;
+  std::vector<std::string> names;
+  PartId add(const std::string& name, Mesh mesh, const Eigen::Vector3d& at = Eigen::Vector3d::Zero()) {
+    for (Eigen::Vector3d& p : mesh.vertices) p += at;
+    meshes.push_back(std::move(mesh));
+    names.push_back(name);
+    return static_cast<PartId>(meshes.size() - 1);
+  }
+};
 
 }  // namespace dismantle::fasteners::test

@@ -85,7 +85,7 @@ TEST(JobList, ABlockedScrewHasItsDrive) {
   EXPECT_EQ(tool_words(job.tools[0]), "hex key 2.5: 1x M3x10, 1x M12, steps 2, 5");
 }
 
-// A plan that nobody judged has fasteners without tools; notes that are no JSON are passed over.
+// A plan without verdicts has fasteners without tools; notes that are no JSON are passed over.
 TEST(JobList, WithoutNotesThereAreNoTools) {
   Plan plan = plan_of_lid();
   plan.disassembly[0].checks.clear();

@@ -40,7 +40,7 @@ bool PathSearcher::search_each(GroupState& group, const Subassemblies& ids, unsi
 }
 
 bool PathSearcher::search(GroupState& group, SubassemblyId id, unsigned depth, const Subassemblies& next) {
-  if (depth != 1 && snaps_.convinces(group, id)) depth = 1;
+  if (depth != 1 && snaps_.is_snap_fit(group, id)) depth = 1;
   const Attempt attempt = history_.attempt_for(group, id, depth);
   const PartId part = state_.part_of(id);
   RunContext& context = state_.context();
@@ -69,7 +69,7 @@ bool PathSearcher::search(GroupState& group, SubassemblyId id, unsigned depth, c
   }
   Outcome outcome = result.outcome();
   std::string message = result.message;
-  if (const auto snap = outcome == Outcome::depth_limit && depth == 1 && snaps_.convinces(group, id)
+  if (const auto snap = outcome == Outcome::depth_limit && depth == 1 && snaps_.is_snap_fit(group, id)
                             ? snaps_.holding(group, id)
                             : std::nullopt) {
     outcome = Outcome::exhausted;  // not searched deeper

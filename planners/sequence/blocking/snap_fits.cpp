@@ -28,7 +28,7 @@ std::optional<MotionDepth> SnapFits::holding(const GroupState& group, Subassembl
 }
 
 void SnapFits::searched(const GroupState& group, SubassemblyId id, unsigned depth, bool found) {
-  if (convinced() || (depth > 0 && depth < params_.snap_depth) || !holding(group, id)) return;
+  if (has_evidence() || (depth > 0 && depth < params_.snap_depth) || !holding(group, id)) return;
   if (found)
     failed_.clear();
   else

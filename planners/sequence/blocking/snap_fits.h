@@ -33,12 +33,12 @@ class SnapFits {
   /// The deepest place of the motion that cuts in least, of those that were measured; nullopt: not held by a snap fit.
   std::optional<MotionDepth> holding(const GroupState& group, SubassemblyId id);
   /// Whether to search no deeper: it is held so, and enough deep searches of parts that are held so found nothing.
-  bool convinces(const GroupState& group, SubassemblyId id) { return convinced() && holding(group, id).has_value(); }
+  bool is_snap_fit(const GroupState& group, SubassemblyId id) { return has_evidence() && holding(group, id).has_value(); }
   /// Records a search: what searches of at least `snap_depth` for parts that are held so find, decides for the others.
   void searched(const GroupState& group, SubassemblyId id, unsigned depth, bool found);
 
  private:
-  bool convinced() const { return known_before_ || failed_.size() >= params_.snap_failures; }
+  bool has_evidence() const { return known_before_ || failed_.size() >= params_.snap_failures; }
   /// By motions of this part alone.
   std::optional<MotionDepth> alone(const GroupState& group, SubassemblyId id);
   double deepest_snap(PartId part, PartId other) const;
@@ -53,7 +53,7 @@ class SnapFits {
   /// By part and the others of its group, in one arrangement.
   std::map<std::pair<SubassemblyId, Subassemblies>, std::optional<MotionDepth>> known_;
   std::uint64_t arrangement_ = 0;
-  bool known_before_;                 ///< an earlier planner of the run was convinced, or has left parts
+  bool known_before_;                 ///< an earlier planner of the run has left parts
   std::set<SubassemblyId> failed_{};  ///< parts whose deep searches found nothing, since one found something
 };
 

@@ -173,7 +173,7 @@ TEST(ToolAccess, APinIsDrivenIn) {
   }
 }
 
-// Two cylinders of one diameter overlap by their facets: nobody knows whether they are pressed.
+// Two cylinders of one diameter overlap by their facets: this does not show whether they are pressed.
 TEST(ToolAccess, APinOfTheSizeOfItsHoleMayGoInByHand) {
   Scene s;
   const PartId pin = s.add("pin", shapes::tube(0, 2, -16, 0, 48));

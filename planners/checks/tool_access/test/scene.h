@@ -18,15 +18,7 @@ namespace solids = fasteners::test;
 using Eigen::Vector3d;
 
 /// Parts in millimetres, then all of them at a pose, in a unit, at the scale of an assembly.
-struct Scene {
-  std::vector<Mesh> meshes;
-  std::vector<std::string> names;
-  PartId add(const std::string& name, Mesh mesh, const Vector3d& at = Vector3d::Zero()) {
-    for (Vector3d& p : mesh.vertices) p += at;
-    meshes.push_back(std::move(mesh));
-    names.push_back(name);
-    return static_cast<PartId>(meshes.size() - 1);
-  }
+struct Scene : solids::NamedMeshes {
   Assembly assembly(const Pose& pose = {}, double scale = 0.1, const std::string& unit = "mm") const {
     const double mm = unit == "m" ? 1000 : unit == "inch" ? 25.4 : 1;
     std::vector<Mesh> placed = meshes;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kForEver = std::numeric_limits<int>::max();
 constexpr std::size_t kMostUnions = 256;
-constexpr double kWorkOfQuestion = 1'000;  // a question about two surfaces takes as long as so many looks at cells
+constexpr double kWorkOfQuestion = 1'000;  // a question about two surfaces takes as long as this many queries of cells
 
 /// The shifts of one part relative to another at which they share full cells, or cells that both reach into.
 class Overlaps {

@@ -106,7 +106,7 @@ std::optional<Attempt> SimultaneousMotion::attempt_for(const GroupState& group, 
 /// As for single parts, a search is repeated when a part that it touched has left; deeper only if several parts moved.
 /// Parts that snap fits hold leave one by one.
 bool SimultaneousMotion::is_worthwhile(const GroupState& group, const Subassemblies& ids, unsigned round) {
-  if (std::all_of(ids.begin(), ids.end(), [&](SubassemblyId s) { return snaps_.convinces(group, s); })) return false;
+  if (std::all_of(ids.begin(), ids.end(), [&](SubassemblyId s) { return snaps_.is_snap_fit(group, s); })) return false;
   const auto known = last_.find(ids);
   if (known == last_.end()) return true;
   const PastMotion& last = known->second;
