@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "dismantle/geometry/numerics.h"
+#include "solid_angles.h"
 
 namespace dismantle {
 namespace {
@@ -116,12 +117,6 @@ bool ray_meets(const Aabb& box, const Vec3& origin, const Vec3& inverse) {
     to = std::min(to, b + 1e-12 * std::abs(b));
   }
   return from <= to;
-}
-
-/// Of a triangle seen from the origin (Van Oosterom and Strackee 1983); > 0: from behind.
-double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
 }  // namespace
@@ -340,7 +335,8 @@ void TriangleBvh::sum_up(std::uint32_t id) {
 double TriangleBvh::generalised_winding_number(const Vec3& p) const {
   constexpr double kFar = 4;  // in reaches: an error below 0.01 of the whole sphere
   if (dipoles_.empty()) return winding_number(p);
-  double angle = 0;
+  double far = 0;
+  SolidAngles near;
   std::array<std::uint32_t, kStackSize> stack;
   std::size_t top = 0;
   stack[top++] = 0;
@@ -350,18 +346,18 @@ double TriangleBvh::generalised_winding_number(const Vec3& p) const {
     const Dipole& sum = dipoles_[id];
     const Vec3 to = sum.center - p;
     if (const double distance = to.norm(); distance > kFar * sum.reach) {
-      angle += sum.area.dot(to) / (distance * distance * distance);
+      far += sum.area.dot(to) / (distance * distance * distance);
     } else if (node.count == 0) {
       stack[top++] = node.first;
       stack[top++] = id + 1;
     } else {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
         const auto& c = corners_[order_[i]];
-        angle += solid_angle(c[0] - p, c[1] - p, c[2] - p);
+        near.add(c[0] - p, c[1] - p, c[2] - p);
       }
     }
   }
-  return angle / (4 * std::numbers::pi);
+  return (far + near.sum()) / (4 * std::numbers::pi);
 }
 
 bool TriangleBvh::inside(const Vec3& p) const {

@@ -158,6 +158,19 @@ TEST(TriangleBvh, InsideOfAnOpenBoxEndsWhereTheOpeningFillsHalfTheView) {
   EXPECT_FALSE(bvh.inside({9, 0, -1}));
 }
 
+TEST(TriangleBvh, GeneralisedWindingNumberCountsNestedShellsAndHoles) {
+  Mesh stack;
+  for (int i = 0; i < 30; ++i) shapes::append(stack, shapes::box(Vec3::Constant(-1 - i), Vec3::Constant(1 + i)));
+  const Vec3 inside(0.1, 0.2, 0.3), between(4.5, 0.2, 0.3);
+  const TriangleBvh bvh(stack, {}, Surface::open);
+  EXPECT_NEAR(bvh.generalised_winding_number(inside), 30, 0.01);
+  EXPECT_NEAR(bvh.generalised_winding_number(between), 26, 0.01);
+  for (Triangle& t : stack.triangles) std::swap(t[0], t[1]);
+  const TriangleBvh turned(stack, {}, Surface::open);
+  EXPECT_NEAR(turned.generalised_winding_number(inside), -30, 0.01);
+  EXPECT_NEAR(turned.generalised_winding_number(between), -26, 0.01);
+}
+
 TEST(TriangleBvh, GeneralisedWindingNumberEqualsTheSumOfSolidAngles) {
   Rng rng(77);
   Mesh soup;
