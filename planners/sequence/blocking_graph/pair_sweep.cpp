@@ -9,7 +9,8 @@ PairSweep::PairSweep(const Assembly& assembly, PathOracle& oracle)
     : assembly_(assembly),
       tolerance_(oracle.tolerance()),
       own_(oracle.memo() == nullptr ? std::make_unique<PartMemo>() : nullptr),
-      memo_(own_ ? *own_ : *oracle.memo()) {
+      memo_(own_ ? *own_ : *oracle.memo()),
+      shapes_(geometry::find_congruent(assembly.parts, 1e-4 * tolerance_)) {
   for (const Part& part : assembly.parts) boxes_.push_back(part.mesh->box());
 }
 
@@ -21,12 +22,13 @@ const std::vector<Eigen::Vector3d>& PairSweep::hull(PartId part) const {
   return geometry::hull_of(assembly_, part, memo_);
 }
 
-bool PairSweep::passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& path) const {
+bool PairSweep::passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& path,
+                       double overlap) const {
   const auto swept = [](const Aabb& box, const std::vector<Pose>& poses) {
     return geometry::RelativeMotion(poses, {Pose{}}, box).swept_box();
   };
   if (!swept(boxes_[moving], path).overlaps(swept(boxes_[fixed], {fixed_at}))) return true;
-  const geometry::Limits limits{assembly_.initial_overlap(moving, fixed), tolerance_};
+  const geometry::Limits limits{overlap, tolerance_};
   return geometry::passes(solids(moving), path, solids(fixed), fixed_at, limits);
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "dismantle/geometry/congruent_parts.h"
 #include "dismantle/geometry/hulls_apart.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/part_memo.h"
@@ -22,7 +23,14 @@ class PairSweep {
 
   /// Does `moving` pass `fixed` along `path` (>= 2 poses, joined by screw motions)? False: it does not, or the budget
   /// did not suffice for a proof.
-  bool passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& path) const;
+  bool passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& path) const {
+    return passes(moving, fixed, fixed_at, path, assembly_.initial_overlap(moving, fixed));
+  }
+  /// The same for two parts that may cut into each other by `overlap`, as two others of these shapes do when assembled.
+  bool passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& path, double overlap) const;
+  double overlap(PartId a, PartId b) const { return assembly_.initial_overlap(a, b); }
+  /// The part as a copy of the first one of its shape, to within a ten-thousandth of the tolerance.
+  const geometry::ShapePlacement& shape(PartId part) const { return shapes_[part]; }
   /// Distance along the unit vector `direction` after which the convex hulls of both groups are apart. Resolution: a
   /// 4096th of `most`, the distance after which they are assumed to be apart.
   double distance_apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest,
@@ -40,7 +48,8 @@ class PairSweep {
   double tolerance_;
   std::unique_ptr<PartMemo> own_;  // if the oracle shares none
   PartMemo& memo_;
-  std::vector<Aabb> boxes_;  // by part
+  std::vector<Aabb> boxes_;                       // by part
+  std::vector<geometry::ShapePlacement> shapes_;  // by part
 };
 
 }  // namespace dismantle::blocking

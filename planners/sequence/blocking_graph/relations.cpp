@@ -10,6 +10,8 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
+constexpr double kAngle = 1e-9;  // unit of directions and rotations: far below the tolerance over an assembly's size
+
 }  // namespace
 
 Relations::Relations(const PairSweep& sweep, const Directions& directions, const Orientations& orientations,
@@ -61,28 +63,45 @@ std::pair<double, double> Relations::extent(PartId part, std::size_t direction, 
 
 /// "i along d past j" and "j along -d past i" are one question. Budgets and rounded offsets could make their answers
 /// differ, so only one form of the question is ever computed.
-Pair Relations::canonical(Pair p) const {
-  if (p.moving > p.fixed) {
-    std::swap(p.moving, p.fixed);
-    std::swap(p.orientation_moving, p.orientation_fixed);
-    p.offset = -p.offset;
-    p.direction = Directions::opposite(p.direction);
-  }
-  for (double& x : p.offset) x = grid_ * std::round(x / grid_) + 0.0;
-  return p;
+Relations::Key Relations::key_of(const Pair& pair) const {
+  const bool swap = pair.moving > pair.fixed;
+  const Vec3 offset = swap ? Vec3(-pair.offset) : pair.offset;
+  const auto grid = [this](double x) { return std::lround(x / grid_); };
+  return {swap ? pair.fixed : pair.moving,
+          swap ? pair.moving : pair.fixed,
+          swap ? Directions::opposite(pair.direction) : pair.direction,
+          grid(offset.x()),
+          grid(offset.y()),
+          grid(offset.z()),
+          swap ? pair.orientation_fixed : pair.orientation_moving,
+          swap ? pair.orientation_moving : pair.orientation_fixed};
 }
 
-Relations::Key Relations::key_of(const Pair& pair) const {
-  const Pair p = canonical(pair);
-  const auto grid = [this](double x) { return std::lround(x / grid_); };
-  return {p.moving,
-          p.fixed,
-          p.direction,
-          grid(p.offset.x()),
-          grid(p.offset.y()),
-          grid(p.offset.z()),
-          p.orientation_moving,
-          p.orientation_fixed};
+ShapeQuestion Relations::as_asked(const Pair& p) const {
+  const geometry::ShapePlacement &moving = sweep_.shape(p.moving), &fixed = sweep_.shape(p.fixed);
+  const Pose at = Pose{Vec3::Zero(), orientations_[p.orientation_fixed]} * fixed.pose;
+  const Pose lies = at.inverse() * (Pose{p.offset, orientations_[p.orientation_moving]} * moving.pose);
+  const Vec3 along = at.q.conjugate() * directions_.all[p.direction];
+  // Of the two quaternions of a rotation, the one whose first large component is positive.
+  std::array<double, 4> q{lies.q.w(), lies.q.x(), lies.q.y(), lies.q.z()};
+  const auto large = std::find_if(q.begin(), q.end(), [](double x) { return std::abs(x) > 0.49; });
+  if (large != q.end() && *large < 0)
+    for (double& x : q) x = -x;
+  ShapeQuestion question{static_cast<PartId>(moving.original), static_cast<PartId>(fixed.original)};
+  for (std::size_t k = 0; k < 3; ++k) {
+    question.offset[k] = std::llround(lies.t[static_cast<Eigen::Index>(k)] / grid_);
+    question.direction[k] = std::llround(along[static_cast<Eigen::Index>(k)] / kAngle);
+  }
+  for (std::size_t k = 0; k < 4; ++k) question.rotation[k] = std::llround(q[k] / kAngle);
+  // Ends a tenth of the tolerance past the fixed part, so that the two do not just touch at the end.
+  question.length = std::llround((distance_past(p) + 0.1 * sweep_.tolerance()) / grid_);
+  question.overlap = sweep_.overlap(p.moving, p.fixed);
+  return question;
+}
+
+ShapeQuestion Relations::question_of(const Pair& p) const {
+  return std::min(as_asked(p), as_asked({p.fixed, p.moving, Directions::opposite(p.direction), -p.offset,
+                                         p.orientation_fixed, p.orientation_moving}));
 }
 
 bool Relations::known(const Pair& pair) const { return far(pair) || blocks_.contains(key_of(pair)); }
@@ -108,16 +127,22 @@ bool Relations::far(const Pair& p) const {
   return false;
 }
 
-/// The computation of blocks().
-Relations::Ahead::Request Relations::request(const Pair& pair) const {
-  const Pair p = canonical(pair);
-  const Pose begin{p.offset, orientations_[p.orientation_moving]};
-  Pose end = begin;
-  // Ends a tenth of the tolerance past the fixed part, so that the two do not just touch at the end.
-  end.t += (distance_past(p) + 0.1 * sweep_.tolerance()) * directions_.all[p.direction];
-  const Pose fixed_at{Vec3::Zero(), orientations_[p.orientation_fixed]};
-  return {key_of(pair), [this, p, fixed_at, path = std::vector<Pose>{begin, end}](const RunContext&) {
-            return !sweep_.passes(p.moving, p.fixed, fixed_at, path);
+/// The computation of an answer.
+Relations::Ahead::Request Relations::request(const ShapeQuestion& q) const {
+  return {q, [this, q](const RunContext&) {
+            const auto real = [](std::int64_t x, double unit) { return unit * static_cast<double>(x); };
+            Pose begin;
+            Vec3 along;
+            for (std::size_t k = 0; k < 3; ++k) {
+              begin.t[static_cast<Eigen::Index>(k)] = real(q.offset[k], grid_);
+              along[static_cast<Eigen::Index>(k)] = real(q.direction[k], kAngle);
+            }
+            begin.q = Eigen::Quaterniond(real(q.rotation[0], kAngle), real(q.rotation[1], kAngle),
+                                         real(q.rotation[2], kAngle), real(q.rotation[3], kAngle))
+                          .normalized();
+            Pose end = begin;
+            end.t += real(q.length, grid_) * along.normalized();
+            return !sweep_.passes(q.moving, q.fixed, Pose{}, {begin, end}, q.overlap);
           }};
 }
 
@@ -126,33 +151,45 @@ bool Relations::blocks(const Pair& pair) {
   const Key key = key_of(pair);
   const auto found = blocks_.find(key);
   if (found != blocks_.end()) return found->second;
-  const bool blocked = blocks_ahead_.get(key, request(pair).compute, {});
-  return blocks_.emplace(key, blocked).first->second;
+  const ShapeQuestion question = question_of(pair);
+  auto answer = answers_.find(question);
+  if (answer == answers_.end())
+    answer = answers_.emplace(question, blocks_ahead_.get(question, request(question).compute, {})).first;
+  return blocks_.emplace(key, answer->second).first->second;
 }
 
 void Relations::compute(std::span<const Pair> pairs) {
-  std::vector<Ahead::Request> unknown;
-  for (const Pair& pair : pairs)
-    if (!known(pair)) unknown.push_back(request(pair));
-  const auto by_key = [](const auto& a, const auto& b) { return a.key < b.key; };
-  std::sort(unknown.begin(), unknown.end(), by_key);
-  unknown.erase(
-      std::unique(unknown.begin(), unknown.end(), [](const auto& a, const auto& b) { return a.key == b.key; }),
-      unknown.end());
+  std::vector<std::pair<Key, ShapeQuestion>> asked;
+  std::vector<ShapeQuestion> unknown;
+  for (const Pair& pair : pairs) {
+    if (known(pair)) continue;
+    asked.emplace_back(key_of(pair), question_of(pair));
+    if (!answers_.contains(asked.back().second)) unknown.push_back(asked.back().second);
+  }
+  std::sort(unknown.begin(), unknown.end());
+  unknown.erase(std::unique(unknown.begin(), unknown.end()), unknown.end());
   std::vector<char> blocked(unknown.size());
   parallel_for(
       unknown.size(), executor_.get(),
-      [&](std::size_t k) { blocked[k] = blocks_ahead_.get(unknown[k].key, unknown[k].compute, {}); },
+      [&](std::size_t k) { blocked[k] = blocks_ahead_.get(unknown[k], request(unknown[k]).compute, {}); },
       [] { return false; });
-  for (std::size_t k = 0; k < unknown.size(); ++k) blocks_.emplace(unknown[k].key, blocked[k] != 0);
+  for (std::size_t k = 0; k < unknown.size(); ++k) answers_.emplace(unknown[k], blocked[k] != 0);
+  for (const auto& [key, question] : asked) blocks_.emplace(key, answers_.at(question));
 }
 
 void Relations::hint(const std::vector<std::vector<Pair>>& lists) {
   std::deque<Ahead::Sequence> sequences;
   for (const auto& list : lists) {
     Ahead::Sequence sequence;
-    for (const Pair& pair : list)
-      if (!known(pair)) sequence.push_back(request(pair));
+    for (const Pair& pair : list) {
+      if (known(pair)) continue;
+      const ShapeQuestion question = question_of(pair);
+      const auto answer = answers_.find(question);
+      if (answer == answers_.end())
+        sequence.push_back(request(question));
+      else if (answer->second)
+        break;
+    }
     if (!sequence.empty()) sequences.push_back(std::move(sequence));
   }
   blocks_ahead_.prefetch(std::move(sequences), {});

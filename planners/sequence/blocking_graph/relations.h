@@ -3,6 +3,8 @@
 /// blocking graphs of an assembly).
 #pragma once
 
+#include <array>
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -28,6 +30,17 @@ struct Pair {
 
 /// A pair, its relative pose, and a direction; see Relations.
 using RelationKey = std::tuple<PartId, PartId, std::size_t, long, long, long, std::size_t, std::size_t>;
+
+/// Does one shape, translated along a direction, pass another? One question for all pairs of equal parts that lie
+/// alike. The answer depends on these rounded numbers alone.
+struct ShapeQuestion {
+  PartId moving = 0, fixed = 0;                       ///< first parts of the two shapes
+  std::array<std::int64_t, 3> offset{}, direction{};  ///< of `moving`, in the frame of `fixed`
+  std::array<std::int64_t, 4> rotation{};             ///< likewise: w, x, y, z
+  std::int64_t length = 0;                            ///< of the translation
+  double overlap = 0;                                 ///< when assembled; assembly units
+  auto operator<=>(const ShapeQuestion&) const = default;
+};
 
 /// A relation that does not block is a valid straight path past one part, except for the test of convex hulls at its
 /// end. Not thread-safe. Idle threads of an executor, if given, compute likely relations speculatively.
@@ -66,10 +79,11 @@ class Relations {
     double lo[3], hi[3];  // along the direction and two across it
   };
   using Key = RelationKey;
-  Pair canonical(Pair pair) const;
   Key key_of(const Pair& pair) const;
-  using Ahead = SpeculativeCache<RelationKey, bool>;
-  Ahead::Request request(const Pair& pair) const;
+  using Ahead = SpeculativeCache<ShapeQuestion, bool>;
+  ShapeQuestion question_of(const Pair& pair) const;
+  ShapeQuestion as_asked(const Pair& pair) const;
+  Ahead::Request request(const ShapeQuestion& question) const;
   Shadow scene(PartId part, std::size_t direction, const Eigen::Matrix3d& turn) const;
   const Shadow& shadow(PartId part, std::size_t direction, std::size_t turn) const;
 
@@ -81,6 +95,7 @@ class Relations {
   const Orientations& orientations_;
   mutable std::map<std::tuple<std::size_t, std::size_t, PartId>, Shadow> rotated_shadows_;  // turn, direction, part
   std::map<Key, bool> blocks_;
+  std::map<ShapeQuestion, bool> answers_;
   std::shared_ptr<Executor> executor_;
   Ahead blocks_ahead_;
 };

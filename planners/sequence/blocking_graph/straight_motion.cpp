@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "blocking_graph/graph.h"
+
 namespace dismantle::blocking {
 namespace {
 
@@ -64,27 +66,54 @@ Subassemblies StraightMotion::blockers(const GroupState& group, SubassemblyId id
   return found;
 }
 
-std::vector<std::vector<std::size_t>> StraightMotion::blocking_graph(const GroupState& group, std::size_t direction) {
-  const std::size_t n = group.members.size();
-  std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j)
-      if (i != j)
-        for (const Pair& pair : pairs_of(group.members[i], group.members[j], direction)) pairs.push_back(pair);
-  constexpr std::size_t kBatch = 16;  // between two polls of the deadline
-  for (std::size_t first = 0; first < pairs.size(); first += kBatch) {
-    if (state_.stop()) return {};
-    relations_.compute(std::span(pairs).subspan(first, std::min(kBatch, pairs.size() - first)));
-  }
-  std::vector<std::vector<std::size_t>> blocked_by(n);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j) {
-      if (i == j) continue;
-      const auto between = pairs_of(group.members[i], group.members[j], direction);
-      if (std::any_of(between.begin(), between.end(), [&](const Pair& p) { return relations_.blocks(p); }))
-        blocked_by[i].push_back(j);
+/// Distance along the direction until the extents of the two parts meet: the nearest part is the likeliest blocker.
+double StraightMotion::gap_of(const Pair& p) const {
+  return relations_.extent(p.fixed, p.direction, p.orientation_fixed).first -
+         relations_.extent(p.moving, p.direction, p.orientation_moving).second -
+         p.offset.dot(directions_.all[p.direction]);
+}
+
+/// Index of a member that blocks another one and is not `inside`: one that is known to, else the nearest.
+std::optional<std::size_t> StraightMotion::blocker_outside(const GroupState& group, std::size_t member,
+                                                           std::size_t direction,
+                                                           const std::function<bool(std::size_t)>& inside) {
+  struct Question {
+    double gap;
+    std::size_t other;
+    Pair pair;
+  };
+  std::vector<Question> questions;
+  for (std::size_t other = 0; other < group.members.size(); ++other) {
+    if (other == member || inside(other)) continue;
+    for (const Pair& pair : pairs_of(group.members[member], group.members[other], direction)) {
+      if (relations_.known_to_block(pair)) return other;
+      if (!relations_.known(pair)) questions.push_back({gap_of(pair), other, pair});
     }
-  return blocked_by;
+  }
+  std::stable_sort(questions.begin(), questions.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
+  if (relations_.wants_hints()) {
+    std::vector<Pair> pairs;
+    for (const Question& q : questions) pairs.push_back(q.pair);
+    relations_.hint({pairs});
+  }
+  for (const Question& q : questions) {
+    if (state_.stop()) return std::nullopt;
+    if (relations_.blocks(q.pair)) return q.other;
+  }
+  return std::nullopt;
+}
+
+std::vector<Subassemblies> StraightMotion::free_groups(const GroupState& group, std::size_t direction) {
+  const auto found = blocking::free_groups(group.members.size(), [&](std::size_t member, const auto& inside) {
+    return blocker_outside(group, member, direction, inside);
+  });
+  if (state_.stop()) return {};
+  std::vector<Subassemblies> groups;
+  for (const auto& indices : found) {
+    groups.emplace_back();
+    for (const std::size_t i : indices) groups.back().push_back(group.members[i]);
+  }
+  return groups;
 }
 
 Subassemblies StraightMotion::fewest_blockers(const GroupState& group, SubassemblyId id,
@@ -208,7 +237,7 @@ std::vector<Pair> StraightMotion::open_pairs(const GroupState& group, Subassembl
 std::pair<std::optional<SubassemblyId>, std::vector<Pair>> StraightMotion::examine(const GroupState& group,
                                                                                    SubassemblyId unit,
                                                                                    std::size_t direction) const {
-  std::vector<std::pair<double, Pair>> unknown;  // by gap: the nearest part is the likeliest blocker
+  std::vector<std::pair<double, Pair>> unknown;  // by gap
   for (const SubassemblyId other : group.members) {
     if (other == unit) continue;
     for (const Pair& pair : pairs_of(unit, other, direction)) {
@@ -216,10 +245,7 @@ std::pair<std::optional<SubassemblyId>, std::vector<Pair>> StraightMotion::exami
         if (!relations_.known_to_block(pair)) continue;
         return {other, {}};
       }
-      unknown.emplace_back(relations_.extent(pair.fixed, direction, pair.orientation_fixed).first -
-                               relations_.extent(pair.moving, direction, pair.orientation_moving).second -
-                               pair.offset.dot(directions_.all[direction]),
-                           pair);
+      unknown.emplace_back(gap_of(pair), pair);
     }
   }
   std::stable_sort(unknown.begin(), unknown.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

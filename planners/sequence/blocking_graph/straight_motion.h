@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -32,8 +33,8 @@ class StraightMotion final : public GroupListener {
   std::vector<std::size_t> free_directions(const GroupState& group, SubassemblyId id);
   /// All subassemblies that block `id`.
   Subassemblies blockers(const GroupState& group, SubassemblyId id, std::size_t direction);
-  /// By member, in the group's order: indices of the members that block it. Empty when the run is to stop.
-  std::vector<std::vector<std::size_t>> blocking_graph(const GroupState& group, std::size_t direction);
+  /// The smallest groups that can move along the direction (see graph.h). Empty when the run is to stop.
+  std::vector<Subassemblies> free_groups(const GroupState& group, std::size_t direction);
   /// The blockers along the direction of `directions` that has the fewest.
   Subassemblies fewest_blockers(const GroupState& group, SubassemblyId id, std::span<const std::size_t> directions);
   /// Proposes to the oracle that `ids` leave along the direction until the hulls are apart, and commits the answer if
@@ -66,6 +67,9 @@ class StraightMotion final : public GroupListener {
   void on_group_changed(GroupState& group, const GroupChange& change) override;
 
  private:
+  std::optional<std::size_t> blocker_outside(const GroupState& group, std::size_t member, std::size_t direction,
+                                             const std::function<bool(std::size_t)>& inside);
+  double gap_of(const Pair& pair) const;
   std::vector<Pair> pairs_of(SubassemblyId moving, SubassemblyId fixed, std::size_t direction) const;
   double path_length(const GroupState& group, const Subassemblies& ids, std::size_t direction,
                      const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;

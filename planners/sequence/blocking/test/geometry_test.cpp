@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "blocking/polyhedron.h"
 #include "blocking/rotation_axes.h"
@@ -30,9 +31,9 @@ std::vector<std::vector<bool>> reach(const std::vector<std::vector<std::size_t>>
   return r;
 }
 
-TEST(BlockingGraph, ComponentsAreThoseThatReachEachOther) {
+TEST(BlockingGraph, FreeGroupsReachThemselvesAndNothingElse) {
   Rng rng(5);
-  for (int trial = 0; trial < 300; ++trial) {
+  for (int trial = 0; trial < 500; ++trial) {
     const std::size_t n = 1 + rng.below(12);
     const double density = rng.uniform(0, 0.4);
     std::vector<std::vector<std::size_t>> edges(n);
@@ -40,27 +41,25 @@ TEST(BlockingGraph, ComponentsAreThoseThatReachEachOther) {
       for (std::size_t j = 0; j < n; ++j)
         if (i != j && rng.uniform() < density) edges[i].push_back(j);
     const auto reached = reach(edges);
-    std::vector<std::size_t> component(n, n);
-    const auto components = strong_components(edges);
-    for (std::size_t c = 0; c < components.size(); ++c)
-      for (const std::size_t i : components[c]) {
-        EXPECT_EQ(component[i], n);
-        component[i] = c;
-      }
-    for (std::size_t i = 0; i < n; ++i)
+    std::vector<std::vector<std::size_t>> expected;
+    for (std::size_t i = 0; i < n; ++i) {
+      std::vector<std::size_t> group;
+      bool closed = true;
       for (std::size_t j = 0; j < n; ++j) {
-        EXPECT_EQ(component[i] == component[j], reached[i][j] && reached[j][i]);
-        if (reached[i][j]) {
-          EXPECT_LE(component[j], component[i]);
-        }
+        if (reached[i][j]) group.push_back(j);
+        closed = closed && (!reached[i][j] || reached[j][i]);
       }
-    for (const auto& group : free_groups(edges)) {
-      EXPECT_LT(group.size(), n);
-      for (std::size_t j = 0; j < n; ++j) {
-        const bool member = std::binary_search(group.begin(), group.end(), j);
-        EXPECT_EQ(member, reached[group[0]][j]) << "all that it would run into, and nobody else";
-      }
+      if (closed && group.front() == i && group.size() < n) expected.push_back(group);
     }
+    std::size_t asked = 0;
+    const auto found = free_groups(n, [&](std::size_t node, const auto& inside) -> std::optional<std::size_t> {
+      ++asked;
+      for (const std::size_t j : edges[node])
+        if (!inside(j)) return j;
+      return std::nullopt;
+    });
+    EXPECT_EQ(found, expected);
+    EXPECT_LE(asked, 3 * n) << "each question finds a new node, closes a cycle, or is the node's last";
   }
 }
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "blocking_graph/graph.h"
-
 namespace dismantle::blocking {
 
 Result FreeGroup::apply(GroupState& group) {
@@ -29,9 +27,7 @@ std::vector<FreeGroup::Candidate> FreeGroup::candidates(const GroupState& group)
   };
   for (const std::size_t d : straight_.directions().common) {
     if (state_.stop()) return {};
-    for (const auto& indices : free_groups(straight_.blocking_graph(group, d))) {
-      Subassemblies ids;
-      for (const std::size_t i : indices) ids.push_back(group.members[i]);
+    for (Subassemblies& ids : straight_.free_groups(group, d)) {
       const Candidate rest = candidate(state_.others(group, ids), Directions::opposite(d));
       const Candidate own = candidate(std::move(ids), d);
       const bool own_first = own.parts <= rest.parts;
