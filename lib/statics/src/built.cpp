@@ -128,6 +128,7 @@ std::vector<Contact> BuiltPiles::contacts(const PlacedPart& a, const PlacedPart&
     return result;
   }
   std::vector<Contact> result = as_assembled(a.part, b.part, gaps);
+  if (b.pose.t.isZero(0) && b.pose.q.vec().isZero(0)) return result;
   for (Contact& c : result) {
     c.normal = b.pose.q * c.normal;
     for (Vec3& p : c.points) p = b.pose * p;
@@ -295,6 +296,9 @@ bool BuiltPiles::stands(std::vector<PlacedPart> body, std::vector<PlacedPart> ne
     for (const PlacedPart& p : body) low = std::min(low, height(p, up));
     return low;
   };
+  // What stands on the table alone stands next to others: these are held here, and can only help. A base plate is asked
+  // about once, not for each set of its hundreds of neighbours.
+  if (!near.empty() && bottom() - table < size_ && stands(body, {}, up, table, true)) return true;
   const double above = bottom() - table;
   up = body.front().pose.q.conjugate() * up;
   std::vector<double> key{up.x(), up.y(), up.z(), above};

@@ -188,6 +188,8 @@ void Segment::add_variants() {
 /// can be tabulated.
 void Segment::find_bounds() {
   least_.assign(variants_.size(), 0);
+  preference_.clear();
+  for (VariantId v = 0; v < variants_.size(); ++v) preference_.push_back(preference_of(v));
   change_ = std::numeric_limits<double>::infinity();
   std::map<std::size_t, VariantId> representatives;
   for (VariantId v = 0; v < variants_.size(); ++v) representatives.try_emplace(class_of_[v], v);
@@ -232,12 +234,12 @@ bool Segment::may_leave(VariantId v, const UnitSet& present) {
   Move& move = moves_[variants_[v].move];
   if (move.blocking.intersects(present)) return false;
   bool held = false;
-  move.units.each([&](std::size_t u) { held = held || needs_gone_[u].intersects(present - move.units); });
+  move.units.each([&](std::size_t u) {
+    held = held || (!needs_gone_[u].empty() && needs_gone_[u].intersects(present - move.units));
+  });
   if (held) return false;
-  const UnitSet open = present - move.free - move.units;
-  bool free = true;
-  open.each([&](std::size_t u) { free = free && !is_in_the_way(move, u); });
-  return free;
+  const UnitSet free = move.free;  // is_in_the_way() adds to it
+  return UnitSet::all_of_rest(present, free, move.units, [&](std::size_t u) { return !is_in_the_way(move, u); });
 }
 
 const UnitSet& Segment::blocking(VariantId v) {

@@ -36,9 +36,9 @@ struct OrderScene {
 
 /// How units leave.
 struct Motion {
-  std::vector<PartId> parts;             ///< ascending
-  std::optional<std::size_t> direction;  ///< straight, along this one of OrderScene::directions
-  const Removal* planned = nullptr;      ///< the path of this step of the first plan
+  std::vector<PartId> parts;                            ///< ascending
+  std::optional<std::size_t> direction;                 ///< straight, along this one of OrderScene::directions
+  const Removal* planned = nullptr;                     ///< the path of this step of the first plan
   Eigen::Vector3d insertion = Eigen::Vector3d::Zero();  ///< unit: direction of its last stretch, as assembly
 };
 
@@ -58,7 +58,7 @@ class Segment final : public Problem {
   bool may_leave(VariantId v, const UnitSet& present) override;
   const UnitSet& blocking(VariantId v) override;
   double cost(VariantId v, const UnitSet& rest, VariantId previous) override;
-  double least(VariantId v) const override { return least_[v] + preference(v); }
+  double least(VariantId v) const override { return least_[v] + preference_[v]; }
   std::uint64_t classes(VariantId v) const override { return std::uint64_t{1} << class_of_[v]; }
   double change() const override { return change_; }
   bool alike(VariantId a, VariantId b) const override { return class_of_[a] == class_of_[b]; }
@@ -71,8 +71,8 @@ class Segment final : public Problem {
   const Motion& motion(VariantId v) const { return moves_[variants_[v].move].motion; }
   const std::optional<Eigen::Vector3d>& up(VariantId v) const { return scene_.ups[variants_[v].up]; }
   const std::vector<PlacedPart>& start() const { return start_; }
-  /// Orders that cost the same by the checks differ a little: along an axis is better than along none, from above better
-  /// than from the side, and that better than from below. This is the part of cost() that says so, for an order.
+  /// Orders that cost the same by the checks differ a little: along an axis is better than along none, from above
+  /// better than from the side, and that better than from below. This is the part of cost() that says so, for an order.
   double preference(const std::vector<VariantId>& order) const;
   /// No order has a larger one.
   double most_preference() const;
@@ -87,8 +87,8 @@ class Segment final : public Problem {
   struct Move {
     Motion motion;
     UnitSet units;
-    UnitSet free, blocking;  ///< units that are known not to be in the way, or to be
-    UnitSet needs;           ///< as blocking(): these, and those that have to leave before
+    UnitSet free, blocking;               ///< units that are known not to be in the way, or to be
+    UnitSet needs;                        ///< as blocking(): these, and those that have to leave before
     std::vector<std::vector<Pose>> path;  ///< of a planned step: until it is apart from all of the start
     std::size_t course = 0;               ///< number of the direction of insertion
   };
@@ -110,7 +110,7 @@ class Segment final : public Problem {
     std::unordered_map<CostKey, double, CostHash> known;
   };
 
-  double preference(VariantId v) const;
+  double preference_of(VariantId v) const;
   void prepare();
   void add_kept_units();
   void add_units(const std::vector<const Removal*>& planned);
@@ -131,9 +131,9 @@ class Segment final : public Problem {
   std::vector<PlacedPart> start_;
   std::vector<std::vector<PlacedPart>> parts_;  // by unit
   std::map<PartId, std::size_t> unit_of_;
-  UnitSet stay_;                   // units that the first plan does not remove
-  UnitSet in_group_;               // units that a planned step removes together with others
-  bool one_left_ = false;          // any other unit may be the one that stays
+  UnitSet stay_;                     // units that the first plan does not remove
+  UnitSet in_group_;                 // units that a planned step removes together with others
+  bool one_left_ = false;            // any other unit may be the one that stays
   std::vector<UnitSet> needs_gone_;  // by unit: constraints.before
   std::vector<Move> moves_;
   std::vector<Variant> variants_;
@@ -141,7 +141,7 @@ class Segment final : public Problem {
   std::vector<VariantId> planned_;
   std::vector<Eigen::Vector3d> courses_;
   std::vector<Item> items_;
-  std::vector<double> least_;
+  std::vector<double> least_, preference_;  // by variant
   std::vector<std::size_t> class_of_;
   double change_ = 0;
   bool exact_ = true, unsure_ = false;

@@ -14,7 +14,7 @@ constexpr double kPreference = 1e-7;  // of a direction, by one degree; far belo
 
 }  // namespace
 
-double Segment::preference(VariantId v) const {
+double Segment::preference_of(VariantId v) const {
   const Vector3d& d = moves_[variants_[v].move].motion.insertion;
   if (d.isZero()) return 0;
   const double along = d.cwiseAbs().maxCoeff(), upwards = d.dot(up(v).value_or(scene_.query.objective.up));
@@ -24,7 +24,7 @@ double Segment::preference(VariantId v) const {
 
 double Segment::preference(const std::vector<VariantId>& order) const {
   double sum = 0;
-  for (const VariantId v : order) sum += preference(v);
+  for (const VariantId v : order) sum += preference_[v];
   return sum;
 }
 
@@ -40,7 +40,7 @@ std::size_t Segment::memory(const Item& item, VariantId v) const {
 }
 
 double Segment::cost(VariantId v, const UnitSet& rest, VariantId previous) {
-  double sum = preference(v);
+  double sum = preference_[v];
   for (Item& item : items_) {
     const bool reads_rest = item.traits.reads_present || item.traits.reads_path;
     CostKey key{v, memory(item, previous), reads_rest ? rest : UnitSet()};

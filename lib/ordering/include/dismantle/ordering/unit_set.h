@@ -1,6 +1,7 @@
 /// Sets of units, the things that an order is made of.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +24,9 @@ class UnitSet {
     std::size_t n = 0;
     for (const std::uint64_t w : words_) n += static_cast<std::size_t>(std::popcount(w));
     return n;
+  }
+  bool empty() const {
+    return std::all_of(words_.begin(), words_.end(), [](std::uint64_t w) { return w == 0; });
   }
   bool intersects(const UnitSet& other) const {
     for (std::size_t k = 0; k < words_.size(); ++k)
@@ -58,6 +62,15 @@ class UnitSet {
     for (std::size_t k = 0; k < words_.size(); ++k)
       for (std::uint64_t w = words_[k]; w != 0; w &= w - 1)
         visit(64 * k + static_cast<std::size_t>(std::countr_zero(w)));
+  }
+  /// True if `test` holds for each member of `set` that is in neither `but` nor `nor`. Asks in ascending order, up to
+  /// the first for which it does not.
+  template <class Test>
+  static bool all_of_rest(const UnitSet& set, const UnitSet& but, const UnitSet& nor, Test test) {
+    for (std::size_t k = 0; k < set.words_.size(); ++k)
+      for (std::uint64_t w = set.words_[k] & ~but.words_[k] & ~nor.words_[k]; w != 0; w &= w - 1)
+        if (!test(64 * k + static_cast<std::size_t>(std::countr_zero(w)))) return false;
+    return true;
   }
   std::size_t hash() const {
     std::uint64_t h = 0x9e3779b97f4a7c15ULL;
