@@ -259,6 +259,25 @@ std::string changed(const std::string& from, const std::string& to) {
   return text.replace(at, from.size(), to);
 }
 
+TEST(PlanIo, PartsSayWhatScrewsFastenAsTheNotesDo) {
+  Plan plan = small_plan();
+  EXPECT_EQ(to_json(plan).find("fastens"), std::string::npos);
+  plan.disassembly[0].checks.push_back({.type = "tool_access"});
+  auto& notes = plan.disassembly[0].checks[0].notes;
+  notes.push_back(
+      {"tool_access.tool", "", R"({"fastens": {"screw": "peg", "clamps": ["hole"], "into": ["hole", "peg"]}})"});
+  const std::string text = to_json(plan);
+  EXPECT_NE(text.substr(0, text.find("disassembly")).find("\"clamps\""), std::string::npos) << text;
+  EXPECT_EQ(to_json(plan_from_json(text, "plan.json")), text);  // parts that come later in the file may be named
+  // Notes of another form say nothing; a name that the plan lacks is no part.
+  for (const char* data : {"[]", "{}", R"({"fastens": 3})", R"({"fastens": {"screw": 1}})",
+                           R"({"fastens": {"screw": "peg", "clamps": "hole", "into": ["pig"]}})"}) {
+    notes[0].data = data;
+    const std::string parts = to_json(plan);
+    EXPECT_EQ(parts.substr(0, parts.find("\"disassembly\"")).find("fastens"), std::string::npos) << data;
+  }
+}
+
 TEST(PlanIo, ProblemsNameTheFileAndThePlace) {
   const std::vector<std::array<std::string, 3>> cases = {
       {"[0, 0, 0.1, 1, 0, 0, 0]", "[0, 0, 0.1, 1, 0, 0]", "/disassembly/0/moves/0/poses/1: expected 7 numbers"},
@@ -300,6 +319,8 @@ TEST(PlanIo, ProblemsNameTheFileAndThePlace) {
        "/assembly/repair/weld: expected a number between 0 and 0.01"},
       {"\"overlaps\": []", "\"overlaps\": [], \"repair\": {\"weld\": 0, \"repair\": 1, \"max_hole\": 0}",
        "/assembly/repair/repair: expected true or false"},
+      {"\"name\": \"peg\"", "\"name\": \"peg\", \"fastens\": {\"into\": [\"hole\", \"pig\"]}",
+       "/assembly/parts/0/fastens/into/1: there is no part 'pig'"},
       {"\"bbox\": null", "\"bbox\": [[1,0,0],[0,0,0]]", "/assembly/bbox: the first corner is above the second"},
   };
   for (const auto& [from, to, message] : cases) {

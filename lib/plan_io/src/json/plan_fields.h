@@ -193,6 +193,13 @@ void fields(auto& v, Is<PlanPart> auto& p) {
   v("product", p.product, if_set);
   v("open", p.open, if_set);
   v.inlined(p.kind);
+  // Of a screw; it comes from the notes of the steps whenever a plan is written (plan_write.cpp).
+  v.object("fastens", unwritten, [](auto& fastens) {
+    std::vector<std::string> clamps, into, only;
+    fastens("clamps", clamps, if_set);
+    fastens("into", into, if_set);
+    fastens("only", only, if_set);
+  });
 }
 
 void fields(auto& v, Is<PlanComponent> auto& c) {

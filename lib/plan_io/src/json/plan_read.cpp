@@ -25,6 +25,14 @@ void check(const Place& place, const PlanPart& p) {
   if (!place.parts().insert(p.name).second) place.at("name").fail(fmt::format("there are two parts '{}'", p.name));
 }
 
+void check(const Place& place, const PlanAssembly&) {
+  for (const Place& stated : place.at("parts").items()) {
+    if (!stated.has("fastens")) continue;
+    for (const auto& [key, names] : stated.at("fastens").members())
+      for (const Place& name : names.items()) part(name);
+  }
+}
+
 void check(const Place& place, const PlanOverlap& o) {
   if (o.a == o.b) place.fail("a part cannot overlap itself");
 }

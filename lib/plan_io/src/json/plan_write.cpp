@@ -1,6 +1,8 @@
 // Plan -> plan.json (docs/plan-format.md).
+#include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <variant>
 
 #include "dismantle/plan.h"
@@ -123,6 +125,33 @@ class Writer {
   Json json_ = Json::object();
 };
 
+/// What screws fasten, by their names: {"clamps", "into", "only"}, as the notes of `tool_access` say it. Notes of
+/// another form are no such notes.
+std::map<std::string, Json> fastened_in(const Plan& plan) {
+  std::map<std::string, Json> out;
+  std::set<std::string> names;
+  for (const PlanPart& part : plan.assembly.parts) names.insert(part.name);
+  const auto known = [&](const Json& parts) {
+    return parts.is_array() && std::all_of(parts.begin(), parts.end(), [&](const Json& name) {
+             return name.is_string() && names.contains(name.get<std::string>());
+           });
+  };
+  for (const PlanStep& step : plan.disassembly)
+    for (const PlanVerdict& verdict : step.checks)
+      for (const StepNote& note : verdict.notes) {
+        if (!note.kind.starts_with("tool_access.")) continue;
+        const Json data = Json::parse(note.data, nullptr, false);
+        if (!data.is_object() || !data.contains("fastens") || !data["fastens"].is_object()) continue;
+        const Json& said = data["fastens"];
+        if (!said.contains("screw") || !said["screw"].is_string()) continue;
+        Json fastens = Json::object();
+        for (const char* key : {"clamps", "into", "only"})
+          if (said.contains(key) && known(said[key])) fastens[key] = said[key];
+        if (!fastens.empty()) out[said["screw"]] = std::move(fastens);
+      }
+  return out;
+}
+
 }  // namespace
 
 Json Motion::write(const std::vector<Pose>& poses) {
@@ -153,6 +182,12 @@ nlohmann::ordered_json verdicts_json(const std::vector<PlanVerdict>& checks) {
   return out;
 }
 
-std::string to_json(const Plan& plan) { return json_text(plan_json::Writer::json(plan)) + "\n"; }
+std::string to_json(const Plan& plan) {
+  auto json = plan_json::Writer::json(plan);
+  const auto fastened = plan_json::fastened_in(plan);
+  for (auto& part : json["assembly"]["parts"])
+    if (const auto said = fastened.find(part["name"]); said != fastened.end()) part["fastens"] = said->second;
+  return json_text(json) + "\n";
+}
 
 }  // namespace dismantle
