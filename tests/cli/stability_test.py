@@ -1,0 +1,81 @@
+"""dismantle stability: what a user asks, and what is known about the answers."""
+import json
+import math
+
+from program import CliTest, box
+
+
+class Stability(CliTest):
+    def stability(self, folder, *arguments, status=0):
+        done = self.run_program("stability", folder, *arguments, "--format", "json", "-q", status=status)
+        return self.result_of(done)
+
+    def write_boxes(self, folder, **boxes):
+        for name, corners in boxes.items():
+            self.write(f"{folder}/{name}.obj", box(*corners))
+
+    def test_a_slab_pushed_on_two_legs(self):
+        # Legs of 1 kg, a slab of 3 kg, friction 0.5: half of the weight of the slab moves it.
+        self.write_boxes("slab", leg1=((0, 0, 0), (20, 40, 30)), leg2=((80, 0, 0), (100, 40, 30)), slab=((0, 0, 30), (100, 40, 40)))
+        result = self.stability("slab", "--friction", "0.5", "--mass", "leg*=1", "--mass", "slab=3")
+        self.assertEqual((result["verdict"], result["holds"], result["moves"]), ("stands", [], []))
+        push = next(p for p in result["least_push"] if p["part"] == "slab")
+        self.assertAlmostEqual(push["newton"], 0.5 * 3 * 9.80665, delta=0.15)
+        self.assertAlmostEqual(push["share_of_weight"], 0.5, delta=0.005)
+        self.assertEqual(push["how"], "slides")
+        self.assertEqual([f["friction"] for f in result["by_friction"]], [0.2, 0.3, 0.4, 0.5, 0.6])
+        self.assertEqual({f["verdict"] for f in result["by_friction"]}, {"stands"})
+
+    def test_a_block_slides_or_topples(self):
+        self.write_boxes("block", floor=((-50, -50, -10), (70, 90, 0)), block=((0, 0, 0), (20, 40, 40)))
+        fixed = ("--fixed", "floor")
+        topples = math.degrees(math.atan(0.5))
+        for friction in (0.2, 0.9):
+            tilt = self.stability("block", *fixed, "--friction", str(friction))["critical_tilt_degrees"]
+            slides = math.degrees(math.atan(friction))
+            for axis, at_most in (("y", topples), ("-y", topples), ("x", 45), ("-x", 45)):
+                self.assertAlmostEqual(tilt[axis], min(slides, at_most), delta=0.1, msg=f"{friction} {axis}")
+            limit = tilt["y"]
+            self.stability("block", *fixed, "--friction", str(friction), "--tilt", f"y={limit - 0.3}")
+            result = self.stability("block", *fixed, "--friction", str(friction), "--tilt", f"y={limit + 0.3}", status=1)
+            self.assertEqual((result["verdict"], result["holds"]), ("falls", ["block"]))
+            self.assertGreater(result["moves"][0]["direction"][0], 0.5)  # by the right-hand rule +x goes down
+            self.stability("block", *fixed, "--friction", str(friction), "--tilt", f"y={limit + 0.3}", "--hands", "1")
+
+    def test_up_table_and_fixed_parts(self):
+        # A plate on a leg under its end: it tips. The other way round it lies on the table, and the leg on it.
+        self.write_boxes("sign", leg=((0, 0, 0), (10, 10, 20)), plate=((0, 0, 20), (60, 10, 25)))
+        self.assertEqual(self.stability("sign", status=1)["verdict"], "falls")
+        self.assertEqual(self.stability("sign", "--up", "-z")["verdict"], "stands")
+        self.assertEqual(self.stability("sign", "--up", "0,0,-2")["verdict"], "stands")
+        self.assertEqual(self.stability("sign", "--up", "-z", "--no-table", status=1)["holds"], ["plate"])
+        # With fixed parts there is no table, unless it is asked for.
+        self.write_boxes("pair", a=((0, 0, 0), (10, 10, 10)), b=((20, 0, 0), (30, 10, 10)))
+        self.assertEqual(self.stability("pair", "--fixed", "a", status=1)["holds"], ["b"])
+        self.assertEqual(self.stability("pair", "--fixed", "a", "--table")["verdict"], "stands")
+
+    def test_densities_move_the_centre(self):
+        self.write_boxes("lever", foot=((0, 0, 0), (20, 10, 10)), plank=((0, 0, 10), (50, 10, 12)), weight=((0, 0, 12), (10, 10, 22)))
+        self.stability("lever", "--density", "plank=4", status=1)
+        self.stability("lever", "--density", "plank=4", "--density", "weight=20")
+
+    def test_the_file_is_what_verify_checks(self):
+        self.write_boxes("tower", a=((0, 0, 0), (20, 20, 10)), b=((5, 0, 10), (25, 20, 20)), c=((20, 0, 20), (40, 20, 30)))
+        self.write_boxes("low", a=((0, 0, 0), (20, 20, 10)), b=((5, 0, 10), (25, 20, 20)))
+        for folder, status in (("tower", 1), ("low", 0)):
+            self.stability(folder, "-o", "out_" + folder, status=status)
+            self.run_program("verify", f"out_{folder}/stability.json", status=0)
+            report = json.loads(self.read("out_" + folder, "stability.json"))
+            report["verdict"] = "stands" if report["verdict"] == "falls" else "falls"
+            self.write(f"out_{folder}/other.json", json.dumps(report))
+            self.assertIn(self.run_program("verify", f"out_{folder}/other.json").returncode, (1, 3))
+
+    def test_what_cannot_be_used(self):
+        self.write_boxes("low", a=((0, 0, 0), (20, 20, 10)), b=((5, 0, 10), (25, 20, 20)))
+        self.assert_fails(3, "no part is named 'wall'", "stability", "low", "--fixed", "wall")
+        self.assert_fails(3, "nowhere", "stability", "nowhere")
+        for option in (("--tilt", "y"), ("--tilt", "y=much"), ("--up", "w"), ("--density", "a=0"), ("--mass", "a=-1"), ("--friction", "-1"),
+                       ("--table", "--no-table")):
+            done = self.run_program("stability", "low", *option)
+            self.assertEqual(done.returncode, 2, f"{option} {done.stderr}")
+            self.assertIn(option[0], done.stderr)
