@@ -191,7 +191,8 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const RunContext& con
 /// Checks law 3, outside the region of the initial overlap.
 bool Verifier::Impl::check_elsewhere(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y,
                                      const Aabb& region, const RunContext& context, MotionCheck& result) const {
-  const verify::Limits limits{0, options.max_penetration, &region, options.max_penetration};
+  const double border = overlap(a.part, b.part) + options.max_penetration;
+  const verify::Limits limits{0, options.max_penetration, &region, options.max_penetration, border};
   const Relative motion(a, b, x, y, limits.most());
   if (!motion.forward.swept_box().overlaps(y.box)) return true;
   verify::Budget budget = budget_for(motion.forward.segments(), true, true, &context);
@@ -343,7 +344,8 @@ bool Verifier::passes(PartId moving, PartId fixed, const Pose& fixed_at, const s
                           impl_->budget_for(path.size() - 1, false, false, nullptr));
   };
   const Aabb* where = impl_->region(moving, fixed);
-  return keeps_to(limits) && (where == nullptr || keeps_to({0, impl_->options.max_penetration, where}));
+  const double tolerance = impl_->options.max_penetration;
+  return keeps_to(limits) && (where == nullptr || keeps_to({0, tolerance, where, tolerance, limits.most()}));
 }
 
 verify::HullsApart Verifier::Impl::hulls_of(const std::vector<PlacedPart>& group,

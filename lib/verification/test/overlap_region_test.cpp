@@ -74,6 +74,22 @@ TEST(OverlapRegion, APressFitLeavesAlongItsAxisAndMayNotCutInElsewhere) {
   }
 }
 
+/// The border of the region crosses large faces, past which the pin slides a long way.
+TEST(OverlapRegion, APinWithASlightOverlapSlidesOutOfAWidePlate) {
+  Rng rng(3);
+  for (int trial = 0; trial < testing_support::trials(1, 20); ++trial) {
+    const double press = rng.uniform(0.03, 0.05);
+    const Pose world = random_pose(rng, 3);
+    const Mesh pin = moved(shapes::tube(0, 0.2 + press, -3, 1, 24, 1), world);
+    const Mesh plate = moved(shapes::tube(0.2, 6, -1, 0, 24, 1), world);
+    const Assembly assembly = measured(pin, plate);
+    const Verifier verifier(assembly, {0.001});
+    ASSERT_TRUE(verifier.overlap_region(0, 1));
+    const Pose out = shift(4.5 * (world.q * Vec3(0, 0, 1)));
+    EXPECT_TRUE(verifier.check_motion({0}, {{1, Pose{}}}, {{Pose{}}, {out}}).valid) << "trial " << trial;
+  }
+}
+
 TEST(OverlapRegion, ShallowAndDeclaredOverlapsHaveNone) {
   const Mesh a = box({0, 0, 0}, {2, 2, 2});
   for (const double depth : {0.05, 0.15}) {

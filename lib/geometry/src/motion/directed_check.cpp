@@ -230,6 +230,14 @@ bool DirectedCheck::exempt(const Interval& i, double margin, const Patch& patch)
   return inside(placed(i.at0, patch.p), b_.frame, margin) && inside(placed(i.at1, patch.p), b_.frame, margin);
 }
 
+/// True if the patch is partly in the exempt box, in its own assembled frame, and larger than the border is wide.
+bool DirectedCheck::crosses_exempt(const Patch& patch) const {
+  if (limits_.exempt == nullptr || patch.radius() <= limits_.border) return false;
+  Aabb box;
+  for (const Vec3& p : patch.p) box.extend(a_.frame * p);
+  return box.overlaps(*limits_.exempt);
+}
+
 /// Certifies a patch for an interval, or adds it (or its pieces) to one of the lists. False: the check failed.
 bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule, List& same, List& later) {
   if (walls_) return settle_wall(i, id, later);
@@ -298,9 +306,10 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
   const auto deepest = static_cast<std::size_t>(seen.deepest);
   if (seen.depth[deepest] > 0 && leaves(moved_along(patch, seen.out[deepest], e))) return true;
   if (reach < budget_.resolution * leeway) return fail(Answer::uncertain, patch.center(), depth, patch.triangle, s);
-  // A ridge often lies along the motion: cut the patch there before halving the interval.
+  // A ridge often lies along the motion: cut the patch there before halving the interval. The border of the exempt box
+  // is fixed to the patch: no interval is short enough for a patch across it.
   const auto ridge = ridge_on(patch, seen);
-  if (i.s1 - i.s0 > 1 || (!ridge && travel + 2 * margin > 0.3 * patch.longest_edge())) {
+  if (i.s1 - i.s0 > 1 || (!ridge && !crosses_exempt(patch) && travel + 2 * margin > 0.3 * patch.longest_edge())) {
     later.push_back(id);
     return true;
   }

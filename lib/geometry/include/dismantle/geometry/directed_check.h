@@ -26,6 +26,7 @@ struct Limits {
   /// Largest penetration bound of the caller, >= penetration; 0: equal to it. Cells of unrolled meshes are a share of
   /// it.
   double tolerance = 0;
+  double border = 0;  ///< width of the layer at the surface of the exempt box that is not needed, >= 0
   /// True if the exempt box contains the point when `a` or `b`, with the point fixed to it, is in assembled position.
   /// `in_a`, `in_b`: the point in the frames of both solids.
   bool exempts(const Solid& a, const Eigen::Vector3d& in_a, const Solid& b, const Eigen::Vector3d& in_b) const {
@@ -141,6 +142,7 @@ class DirectedCheck {
   bool worth_a_test(const Interval& i, double margin, std::uint32_t triangle) const;
   bool outside(const Placement& place, const Corners& moved) const;
   bool exempt(const Interval& i, double margin, const Patch& patch) const;
+  bool crosses_exempt(const Patch& patch) const;
   bool sides();
   // walls.cpp: if a part is open
   bool rests_at(double time);
