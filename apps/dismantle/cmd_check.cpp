@@ -13,6 +13,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/preparation/check_assembly.h"
+#include "dismantle/session/objective.h"
 #include "dismantle/settings.h"
 #include "dismantle/stopped.h"
 
@@ -20,7 +21,7 @@ namespace dismantle::app {
 namespace {
 
 struct Check {
-  std::string input, pictures, up = "z";
+  std::string input, pictures;
   ConfigFlags config;
   ConsoleOptions console;
 };
@@ -33,7 +34,8 @@ PartId part_named(const Assembly& assembly, const std::string& name) {
 }
 
 /// Draws one file for each pair with a known place: overlap_01.png, ...
-void draw_pairs(AssemblyCheck& check, const Assembly& assembly, const Check& options, const RunContext& context) {
+void draw_pairs(AssemblyCheck& check, const Assembly& assembly, const Check& options, const Eigen::Vector3d& up,
+                const RunContext& context) {
   const BookLibrary& library = book_library();
   const std::filesystem::path folder = options.pictures;
   std::filesystem::create_directories(folder);
@@ -45,12 +47,12 @@ void draw_pairs(AssemblyCheck& check, const Assembly& assembly, const Check& opt
     const auto size = [&](PartId id) { return assembly.parts[id].mesh->box().size().norm(); };
     if (size(large) < size(small)) std::swap(large, small);
     const std::filesystem::path file = folder / fmt::format("overlap_{:02}.png", ++number);
-    write_file(file, library.pair_png(assembly, large, small, *finding.at, options.up == "y"));
+    write_file(file, library.pair_png(assembly, large, small, *finding.at, up));
     finding.picture = file.string();
   }
 }
 #else
-void draw_pairs(AssemblyCheck&, const Assembly&, const Check&, const RunContext&) {
+void draw_pairs(AssemblyCheck&, const Assembly&, const Check&, const Eigen::Vector3d&, const RunContext&) {
   throw Error("this program was built without pictures; install libpango1.0-dev and build again");
 }
 #endif
@@ -91,7 +93,7 @@ int check(const Check& options) {
       const double resolution = 0.01 * session.config().verify.max_penetration;  // far below the tolerance of the verifier
       return check_assembly(assembly, report, resolution, context);
     });
-    if (!options.pictures.empty()) draw_pairs(found, assembly, options, context);
+    if (!options.pictures.empty()) draw_pairs(found, assembly, options, up_of(session.config().layout, assembly), context);
     return finish(found, options, true, console);
   } catch (const InputError&) {
     if (report.parts.empty()) throw;
@@ -109,12 +111,10 @@ void add_check(CLI::App& app, Action& action) {
       ->option_text(" ");
   command->add_option("--pictures", options->pictures, "Folder for a picture of each place where two parts overlap")
       ->option_text("DIR");
-  command->add_option("--up", options->up, "Axis of the input that points up in pictures")
-      ->check(CLI::IsMember({"y", "z"}))
-      ->option_text("y|z");
   options->config.add_file_and_set(*command);
   options->config.add_key(*command, "--unit", "assembly.unit", "UNIT", "Unit of an input that names none: mm, inch...");
   options->config.add_key(*command, "--threads", "run.threads", "N", "Threads, 0 = all cores");
+  options->config.add_key(*command, "--up", "layout.up", "x|y|z|-x|-y|-z|X,Y,Z", "What is up in the input's coordinates");
   add_format(*command, options->console);
   add_verbosity(*command, options->console);
   command->footer(

@@ -7,14 +7,16 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <sstream>
+#include <optional>
 #include <utility>
 
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
+#include "dismantle/geometry/direction.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/preparation/name_pattern.h"
+#include "dismantle/session/objective.h"
 #include "dismantle/settings.h"
 #include "dismantle/stability_file.h"
 #include "dismantle/statics/stability.h"
@@ -27,7 +29,7 @@ using Json = nlohmann::ordered_json;
 using Vec3 = Eigen::Vector3d;
 
 struct Stability {
-  std::string input, up = "z", folder;
+  std::string input, folder;
   std::vector<std::string> fixed, density, mass, tilt;
   bool table = false, no_table = false;
   double friction = 0.4;
@@ -52,19 +54,9 @@ double number_in(const std::string& text, const std::string& option) {
 
 /// "-y", or "0,0.5,1".
 Vec3 direction_in(const std::string& text, const std::string& option) {
-  for (int k = 0; k < 3; ++k) {
-    if (text == std::string(1, "xyz"[k])) return Vec3::Unit(k);
-    if (text == std::string("-") + "xyz"[k]) return -Vec3::Unit(k);
-  }
-  Vec3 v = Vec3::Zero();
-  std::istringstream words(text);
-  std::string word;
-  int count = 0;
-  for (; std::getline(words, word, ','); ++count)
-    if (count < 3) v[count] = number_in(word, option);
-  if (count != 3 || !(v.norm() > 0))
-    throw Error(fmt::format("{}: '{}' is no direction; write x, y, z, -x, -y, -z or X,Y,Z", option, text));
-  return v.normalized();
+  const std::optional<Vec3> direction = direction_named(text);
+  if (!direction) throw Error(fmt::format("{}: '{}' is no direction; write {}", option, text, kDirectionForms));
+  return *direction;
 }
 
 /// "NAME=VALUE"; the name may contain '='.
@@ -106,7 +98,6 @@ statics::StabilityOptions options_of(const Stability& asked, const Assembly& ass
   }
   options.table = asked.table || (asked.fixed.empty() && !asked.no_table);
   options.friction = asked.friction;
-  options.up = direction_in(asked.up, "--up");
   for (const std::string& text : asked.tilt) {
     const auto [axis, angle] = assignment_in(text, "--tilt");
     options.tilts.emplace_back(direction_in(axis, "--tilt"), angle * M_PI / 180);
@@ -188,14 +179,15 @@ statics::StabilityOptions model_in(const Json& json, const Assembly& assembly) {
 
 int stability(const Stability& asked) {
   Console console(asked.console);
-  (void)direction_in(asked.up, "--up");
   if (!asked.folder.empty()) open_output_folder(asked.folder);
   const Session session(asked.config.source());
   warn_of_problems(session, console);
   RunContext context = context_of(session, console);
   const LoadedAssembly loaded = stoppable(context, [&] { return session.load(asked.input, context); });
   const Assembly& assembly = *loaded.assembly;
-  const statics::AssemblyPile pile(assembly, options_of(asked, assembly));
+  statics::StabilityOptions how = options_of(asked, assembly);
+  how.up = up_of(session.config().layout, assembly);
+  const statics::AssemblyPile pile(assembly, std::move(how));
   const statics::StabilityReport report = statics::judge_assembly(pile, [&] { return context.should_stop(); });
   console.end_progress();
   if (context.should_stop()) throw Stopped(context, "stopped before the pile was judged");
@@ -294,13 +286,12 @@ void add_stability(CLI::App& app, Action& action) {
   command->add_option("--tilt", options->tilt, "Turns the pile by the right-hand rule about an axis through the origin")
       ->allow_extra_args(false)
       ->option_text("AXIS=DEGREES");
-  command->add_option("--up", options->up, "Direction of the input that is up (z)")
-      ->option_text("x|y|z|-x|-y|-z|X,Y,Z");
   command->add_option("--hands", options->hands, "Hands that may hold parts: success if so many holds are enough (0)")
       ->option_text("N");
   command->add_option("-o,--output", options->folder, "Folder for stability.json, which verify takes")
       ->option_text("DIR");
   options->config.add_file_and_set(*command);
+  options->config.add_key(*command, "--up", "layout.up", "x|y|z|-x|-y|-z|X,Y,Z", "What is up in the input's coordinates");
   options->config.add_key(*command, "--threads", "run.threads", "N", "Threads, 0 = all cores");
   add_format(*command, options->console);
   add_verbosity(*command, options->console);

@@ -1,5 +1,6 @@
 #include "dismantle/frame_options.h"
 
+#include "dismantle/geometry/direction.h"
 #include "dismantle/geometry/length_unit.h"
 
 namespace dismantle::app {
@@ -7,10 +8,18 @@ namespace dismantle::app {
 void add_frame(CLI::App& command, FrameOptions& options) {
   command.add_option("--unit", options.unit, "Unit of the input, if its files name none: mm, m, inch...")
       ->option_text("UNIT");
-  command.add_option("--up", options.up, "Axis of the input that points up; default: y for glTF, else z")
-      ->option_text("y|z")
-      ->check(CLI::IsMember({"y", "z"}));
+  add_up(command, options.up, "What is up in the input's coordinates; default: as in the plan");
   add_show_unit(command, options.show_unit);
+}
+
+CLI::Option* add_up(CLI::App& command, std::string& up, const std::string& help) {
+  return command.add_option("--up", up, help)
+      ->option_text("x|y|z|-x|-y|-z|X,Y,Z")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return direction_named(text) ? "" : "'" + text + "' is no direction; write " + kDirectionForms;
+          },
+          "DIRECTION"));
 }
 
 void add_show_unit(CLI::App& command, std::string& show_unit) {
@@ -28,10 +37,15 @@ void add_show_unit(CLI::App& command, std::string& show_unit) {
 }
 
 InputFrame frame_of(const Plan& plan, const FrameOptions& options) {
-  PlanAssembly assembly = plan.assembly;
-  if (!options.unit.empty()) assembly.unit = options.unit;
-  InputFrame frame = input_frame(assembly);
-  if (!options.up.empty()) frame.y_up = options.up == "y";
+  InputFrame frame = input_frame(plan);
+  if (!options.unit.empty()) {
+    PlanAssembly assembly = plan.assembly;
+    assembly.unit = options.unit;
+    const Eigen::Vector3d up = frame.up;
+    frame = input_frame(assembly);
+    frame.up = up;
+  }
+  if (!options.up.empty()) frame.up = direction_named(options.up).value();
   return shown_in(std::move(frame), options.show_unit);
 }
 

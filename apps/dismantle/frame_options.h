@@ -14,6 +14,8 @@ struct FrameOptions {
   std::string show_unit;  ///< empty: the one that people use
 };
 void add_frame(CLI::App& command, FrameOptions& options);
+/// --up: a direction as in direction_named(), checked.
+CLI::Option* add_up(CLI::App& command, std::string& up, const std::string& help);
 void add_show_unit(CLI::App& command, std::string& show_unit);
 
 /// @throws InputError for an unknown unit.

@@ -52,7 +52,7 @@ void BroadPhase_LayOut(benchmark::State& state) {
     boxes.push_back({lo, lo + shapes::random_vector(rng, 0.05, 0.5)});
   }
   const Aabb taken{Vec3::Constant(-5), Vec3::Constant(5)};
-  for (auto _ : state) benchmark::DoNotOptimize(lay_out(boxes, {taken}, Up::z, 0.5));
+  for (auto _ : state) benchmark::DoNotOptimize(lay_out(boxes, {taken}, Eigen::Vector3d::UnitZ(), 0.5));
   state.SetComplexityN(state.range(0));
 }
 BENCHMARK(BroadPhase_LayOut)->RangeMultiplier(10)->Range(100, 1'000)->Unit(benchmark::kMillisecond)->Complexity();

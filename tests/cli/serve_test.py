@@ -190,6 +190,8 @@ class Serve(CliTest):
         self.assertEqual(sorted(os.listdir(self.path("in"))), ["broken.obj", "broken.plan"])
         for timeout in (0, -1, 1e9, "soon"):
             self.ask("/api/plan", status=400, name="broken", timeout=timeout)
+        for up in ("up", 3, "0,0,0", "x --help"):
+            self.ask("/api/plan", status=400, name="broken", up=up)
         self.ask("/api/plan", status=404, name="nothing")
 
     def test_a_running_job_is_cancelled_and_a_waiting_one_too(self):

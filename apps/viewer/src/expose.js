@@ -25,7 +25,7 @@ export function expose(app, display) {
     /** The pose of the assembly in the scene, about its middle: how it lies. */
     lies: () => { now(); return Array.from(app.lies); },
     state: () => ({mode: app.mode, time: app.time, step: app.step, playing: app.playing, explode: app.explode, theme: display.dark ? 'dark' : 'light',
-      up: app.stage?.axis, selected: app.selected < 0 ? null : model.parts[app.selected].name, best: app.best ? model.parts[app.best.index].name : null,
+      up: app.stage?.up.toArray(), selected: app.selected < 0 ? null : model.parts[app.selected].name, best: app.best ? model.parts[app.best.index].name : null,
       trails: app.trailing, fading: app.fading, following: app.following,
       moving: [...app.moving].map(i => model.parts[i].name), held: [...app.held].map(i => model.parts[i].name)}),
     camera: () => ({position: app.stage.camera.position.toArray(), target: app.stage.controls.target.toArray()}),

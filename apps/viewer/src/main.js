@@ -61,7 +61,7 @@ function start() {
   document.body.replaceChildren(element('div.page', {}, scene, makeTransport(app), makePanel(app)), help);
   const stage = makeScene(app, view);
   if (stage) {
-    if (display.axis !== 'z') stage.setUp(display.axis);
+    if (display.up[2] !== 1) stage.setUp(display.up);
     const parts = new Parts(app.model, stage.scene);
     app.show(stage, parts, new Trails(app.model, stage.scene), new Places(app.model, stage.scene));
     display.apply();

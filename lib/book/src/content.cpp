@@ -168,8 +168,10 @@ class ContentWriter {
     if (!a.box.empty()) {
       content_.facts.emplace_back("size", size_text(a.box.size()));
     }
-    content_.facts.emplace_back("directions", frame_.y_up ? "right is +X, up is +Y, the front is at +Z"
-                                                          : "right is +X, up is +Z, the front is at -Y");
+    const Eigen::Quaterniond input = upright(frame_.up).conjugate();
+    content_.facts.emplace_back(
+        "directions", fmt::format("right is {}, up is {}, the front is at {}", axis_text(input * Eigen::Vector3d::UnitX()),
+                                  axis_text(frame_.up), axis_text(input * -Eigen::Vector3d::UnitY())));
     if (!frame_.unit_known) content_.facts.emplace_back("units", "those of the input, which names none");
     content_.facts.emplace_back(
         "checked", fmt::format("every motion, with parts that overlap by at most {} {} more than when assembled",
@@ -283,12 +285,12 @@ class ContentWriter {
       const std::optional<double> guided = guided_distance_of(step, mover, motion);
       const std::string who = step.movers.size() > 1 ? names_of(mover.parts) + ": " : "";
       page.motions.push_back(
-          who + travel_words(motion, guided, {unit_, frame_.y_up, size_, options_.disassembly}, frame_.lies(step.up)));
+          who + travel_words(motion, guided, {unit_, frame_.up, size_, options_.disassembly}, frame_.lies(step.up)));
       add_vectors(motion, guided, who, page.facts);
     }
     if (step.movers.empty()) page.motions.emplace_back("it is apart already: nothing has to move");
     if (step.up) {
-      page.facts.emplace_back("lies", lie_words(*step.up, frame_.y_up));
+      page.facts.emplace_back("lies", lie_words(*step.up, frame_.up));
     }
     if (index == 0 && !options_.disassembly) page.facts.emplace_back("base", names_of(chapter.base));
     if (index == 0 && options_.disassembly && chapter.letter >= 0)

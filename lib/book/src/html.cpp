@@ -104,7 +104,7 @@ std::string step_page(const BookPage& page, const StepPictures& pictures, bool d
 }  // namespace
 
 std::string book_html(const Plan& plan, const Assembly& assembly, const BookOptions& options) {
-  const Illustrator illustrator(assembly, options.frame.y_up);
+  const Illustrator illustrator(assembly, options.frame.up);
   const BookContent content = book_content(plan, assembly, options, illustrator.shapes());
   const BookPictures fronts = front_pictures(plan, assembly, illustrator);
 

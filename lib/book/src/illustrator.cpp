@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "dismantle/plan_io/explode.h"
@@ -23,9 +22,9 @@ std::string Viewpoint::words() const {
          (below ? ", from below" : "");
 }
 
-Illustrator::Illustrator(const Assembly& assembly, bool y_up)
+Illustrator::Illustrator(const Assembly& assembly, const Eigen::Vector3d& up)
     : assembly_(assembly), placements_(geometry::find_congruent(assembly.parts)) {
-  frame_.y_up = y_up;
+  frame_.up = up;
   std::set<std::array<int, 3>> different;
   for (const Part& part : assembly.parts)
     if (part.colour) different.insert({part.colour->r, part.colour->g, part.colour->b});
@@ -55,15 +54,13 @@ DrawnBody Illustrator::body_of(const PlacedPart& placed, bool marked) const {
 }
 
 Eigen::Matrix3d Illustrator::axes_of(const Viewpoint& view, const Eigen::Quaterniond& lies) const {
-  // Z up, seen from -Y; then turned for input with Y up.
+  // Z up, seen from -Y; then turned for input with another direction up.
   const Eigen::Vector3d viewer =
       Eigen::Vector3d(view.left ? -0.62 : 0.62, view.back ? 0.78 : -0.78, view.below ? -0.62 : 0.62).normalized();
   const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(viewer).normalized();
   Eigen::Matrix3d axes;
   axes << right.transpose(), viewer.cross(right).transpose(), viewer.transpose();
-  if (!frame_.y_up) return axes * lies.toRotationMatrix();
-  const double half = std::numbers::sqrt2 / 2;
-  return axes * (Eigen::Quaterniond(half, half, 0, 0) * lies).toRotationMatrix();  // from Y up to Z up
+  return axes * (upright(frame_.up) * lies).toRotationMatrix();
 }
 
 std::vector<Eigen::Vector3d> Illustrator::corners(const std::vector<PlacedPart>& parts) const {

@@ -54,7 +54,7 @@ BookPictures front_pictures(const Plan& plan, const Assembly& assembly, const Il
 
 class Illustrator {
  public:
-  Illustrator(const Assembly& assembly, bool y_up);
+  Illustrator(const Assembly& assembly, const Eigen::Vector3d& up);
 
   /// The parts at the given poses, from the usual viewpoint.
   Picture scene(const std::vector<PlacedPart>& parts, const PictureSize& size) const;

@@ -18,10 +18,11 @@ Picture Illustrator::pair(PartId other, PartId marked, const Eigen::Vector3d& at
   return picture;
 }
 
-std::string pair_png(const Assembly& assembly, PartId other, PartId marked, const Eigen::Vector3d& at, bool y_up) {
+std::string pair_png(const Assembly& assembly, PartId other, PartId marked, const Eigen::Vector3d& at,
+                     const Eigen::Vector3d& up) {
   Assembly two = assembly;
   two.parts = {assembly.parts.at(other), assembly.parts.at(marked)};
-  const std::vector<std::uint8_t> png = png_of(Illustrator(two, y_up).pair(0, 1, at));
+  const std::vector<std::uint8_t> png = png_of(Illustrator(two, up).pair(0, 1, at));
   return {png.begin(), png.end()};
 }
 

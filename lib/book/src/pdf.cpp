@@ -261,7 +261,7 @@ void pdf_step(PdfPages& pdf, const BookPage& page, const StepPictures& pictures,
 }  // namespace
 
 std::string book_pdf(const Plan& plan, const Assembly& assembly, const BookOptions& options) {
-  const Illustrator illustrator(assembly, options.frame.y_up);
+  const Illustrator illustrator(assembly, options.frame.up);
   const BookContent content = book_content(plan, assembly, options, illustrator.shapes());
   PdfPages pdf(content.title);
   title_page(pdf, content, front_pictures(plan, assembly, illustrator));

@@ -132,10 +132,13 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
       boxes.push_back(rooms[g]);
       ours.push_back(g);
     }
-  auto shifts = lay_out(boxes, taken, layout.up, layout.gap);
+  const Eigen::Vector3d up = layout.up_axis();
+  auto shifts = lay_out(boxes, taken, up, layout.gap);
   // The plane is the one on which the assembly stands, even if parts leave below it.
-  const int w = static_cast<int>(layout.up);
-  for (auto& shift : shifts) shift[w] += assembled.lo[w] - rooms[0].lo[w];
+  int w = 0;
+  up.cwiseAbs().maxCoeff(&w);
+  for (auto& shift : shifts)
+    shift[w] += up[w] > 0 ? assembled.lo[w] - rooms[0].lo[w] : assembled.hi[w] - rooms[0].hi[w];
   for (std::size_t k = 0; k < ours.size(); ++k)
     scenery.place[ours[k]] = Pose{shifts[k], Eigen::Quaterniond::Identity()};
   for (const auto& remark : remarks) context.log(LogLevel::warning, remark);

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "dismantle/errors.h"
+#include "dismantle/geometry/direction.h"
 #include "dismantle/geometry/numerics.h"
 
 namespace dismantle {
@@ -77,7 +79,7 @@ class Columns {
 
 class Table {
  public:
-  Table(Up up, double gap) : u_((static_cast<int>(up) + 1) % 3), v_((static_cast<int>(up) + 2) % 3), gap_(gap) {}
+  Table(int normal, double gap) : u_((normal + 1) % 3), v_((normal + 2) % 3), gap_(gap) {}
 
   Rectangle shadow(const Aabb& box) const { return {{box.lo[u_], box.lo[v_]}, {box.hi[u_], box.hi[v_]}}; }
   void take(const Rectangle& r) { taken_.push_back(r); }
@@ -120,21 +122,29 @@ void LayoutOptions::describe(Schema<LayoutOptions>& s) {
   s.add("enabled", &LayoutOptions::enabled,
         {.doc = "Plan the transfer of each part from a layout to where it is inserted (Algorithm 3). Off: assembly "
                 "steps begin where the disassembly left the parts."});
-  s.add_choice<Up>("up", &LayoutOptions::up,
-                   {{"x", Up::x, "the plane of y and z"}, {"y", Up::y, "of z and x"}, {"z", Up::z, "of x and y"}},
-                   "Normal of the plane on which parts are laid out around the assembly.");
+  s.add("up", &LayoutOptions::up,
+        {.doc = "What is up in the input's coordinates: x, y, z, -x, -y, -z or X,Y,Z; auto is y for glTF, else z. Gravity "
+                "pulls against it, pictures and words follow it, and parts are laid out on the plane across the nearest "
+                "axis."});
   s.add("gap", &LayoutOptions::gap,
         {.unit = "unit", .min = 1e-3, .max = 100, .doc = "Minimum distance between any two boxes of the layout."});
 }
 
-std::vector<Eigen::Vector3d> lay_out(const std::vector<Aabb>& boxes, const std::vector<Aabb>& taken, Up up,
-                                     double gap) {
+Eigen::Vector3d LayoutOptions::up_axis() const {
+  const std::optional<Eigen::Vector3d> axis = direction_named(up == "auto" ? "z" : up);
+  if (!axis) throw Error("layout.up: '" + up + "' is no direction; write " + kDirectionForms);
+  return *axis;
+}
+
+std::vector<Eigen::Vector3d> lay_out(const std::vector<Aabb>& boxes, const std::vector<Aabb>& taken,
+                                     const Eigen::Vector3d& up, double gap) {
   if (taken.empty()) throw std::invalid_argument("lay_out: there must be something to lay the boxes around");
-  Table table(up, gap);
+  int w = 0;
+  up.cwiseAbs().maxCoeff(&w);
+  Table table(w, gap);
   for (const auto& t : taken) table.take(table.shadow(t));
   const Rectangle first = table.shadow(taken.front());
   const Eigen::Vector2d middle = (first.lo + first.hi) / 2;
-  const int w = static_cast<int>(up);
 
   const auto area = [&](std::size_t i) {
     const Rectangle r = table.shadow(boxes[i]);
@@ -151,7 +161,7 @@ std::vector<Eigen::Vector3d> lay_out(const std::vector<Aabb>& boxes, const std::
     table.take({at, at + (r.hi - r.lo)});
     shifts[i][(w + 1) % 3] = at.x() - r.lo.x();
     shifts[i][(w + 2) % 3] = at.y() - r.lo.y();
-    shifts[i][w] = taken.front().lo[w] - boxes[i].lo[w];
+    shifts[i][w] = up[w] > 0 ? taken.front().lo[w] - boxes[i].lo[w] : taken.front().hi[w] - boxes[i].hi[w];
   }
   return shifts;
 }

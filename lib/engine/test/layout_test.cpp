@@ -38,15 +38,18 @@ TEST(Layout, NothingOverlapsAndAllLiesOnThePlane) {
   Rng rng(1);
   for (int trial = 0; trial < 60; ++trial) {
     const int up = static_cast<int>(rng.below(3));
+    const double sign = rng.below(2) == 0 ? 1 : -1;
+    const Eigen::Vector3d tilt(rng.uniform(-0.4, 0.4), rng.uniform(-0.4, 0.4), rng.uniform(-0.4, 0.4));
+    const Eigen::Vector3d nearly = (sign * Eigen::Vector3d::Unit(up) + tilt).normalized();
     const double gap = rng.uniform(0.01, 2);
     std::vector<Aabb> taken{random_box(rng, 10)}, boxes;
     for (auto n = rng.below(3); n > 0; --n) taken.push_back(random_box(rng, 8));
     for (auto n = 1 + rng.below(30); n > 0; --n) boxes.push_back(random_box(rng, 6));
-    const auto shifts = lay_out(boxes, taken, static_cast<Up>(up), gap);
+    const auto shifts = lay_out(boxes, taken, nearly, gap);
     ASSERT_EQ(shifts.size(), boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       const Aabb a = shifted(boxes[i], shifts[i]);
-      EXPECT_NEAR(a.lo[up], taken[0].lo[up], 1e-12);
+      EXPECT_NEAR(sign > 0 ? a.lo[up] : a.hi[up], sign > 0 ? taken[0].lo[up] : taken[0].hi[up], 1e-12);
       for (const auto& t : taken) EXPECT_GE(apart(a, t, up), gap);
       for (std::size_t k = 0; k < i; ++k) EXPECT_GE(apart(a, shifted(boxes[k], shifts[k]), up), gap);
     }
@@ -58,7 +61,7 @@ TEST(Layout, SameBoxesSameLayout) {
   std::vector<Aabb> boxes;
   for (int i = 0; i < 40; ++i) boxes.push_back(random_box(rng, 5));
   const std::vector<Aabb> taken{random_box(rng, 10)};
-  EXPECT_EQ(lay_out(boxes, taken, Up::z, 0.5), lay_out(boxes, taken, Up::z, 0.5));
+  EXPECT_EQ(lay_out(boxes, taken, Eigen::Vector3d::UnitZ(), 0.5), lay_out(boxes, taken, Eigen::Vector3d::UnitZ(), 0.5));
 }
 
 TEST(Layout, OfEqualShapesTheLargerLieNearer) {
@@ -71,7 +74,7 @@ TEST(Layout, OfEqualShapesTheLargerLieNearer) {
     boxes.back().extend(Vector3d(0, 0, 0));
     boxes.back().extend(Vector3d::Constant(0.5 + 0.5 * ((7 * i) % 12)));
   }
-  const auto shifts = lay_out(boxes, {base}, Up::z, 0.5);
+  const auto shifts = lay_out(boxes, {base}, Eigen::Vector3d::UnitZ(), 0.5);
   // The position of a box does not depend on smaller ones: leaving small boxes out changes nothing.
   std::vector<std::size_t> order(boxes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -80,7 +83,7 @@ TEST(Layout, OfEqualShapesTheLargerLieNearer) {
   std::vector<Aabb> some;
   for (std::size_t k = 0; k < order.size(); ++k) {
     some.push_back(boxes[order[k]]);
-    const auto fewer = lay_out(some, {base}, Up::z, 0.5);
+    const auto fewer = lay_out(some, {base}, Eigen::Vector3d::UnitZ(), 0.5);
     for (std::size_t j = 0; j <= k; ++j) EXPECT_EQ(fewer[j], shifts[order[j]]);
   }
   // The largest four find a place at the four sides, right beside the base.
@@ -98,7 +101,7 @@ TEST(Layout, EachLiesAtTheNearestFreePlace) {
     const bool equal = trial % 2 == 0;  // many ties, as of equal washers
     const Aabb model = random_box(rng, 3);
     for (int n = 0; n < 25; ++n) boxes.push_back(equal ? model : random_box(rng, 3));
-    const auto shifts = lay_out(boxes, taken, Up::z, kGap);
+    const auto shifts = lay_out(boxes, taken, Eigen::Vector3d::UnitZ(), kGap);
     std::vector<std::size_t> order(boxes.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -137,7 +140,7 @@ TEST(Layout, EachLiesAtTheNearestFreePlace) {
   }
 }
 
-TEST(Layout, WantsSomethingToLieAround) { EXPECT_THROW(lay_out({}, {}, Up::z, 1), std::invalid_argument); }
+TEST(Layout, WantsSomethingToLieAround) { EXPECT_THROW(lay_out({}, {}, Eigen::Vector3d::UnitZ(), 1), std::invalid_argument); }
 
 }  // namespace
 }  // namespace dismantle

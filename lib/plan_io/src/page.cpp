@@ -118,6 +118,16 @@ std::string for_script(const std::string& json) {
   return out;
 }
 
+/// The plan without what nobody draws: proofs of holds.
+std::string drawn_json(Plan plan) {
+  for (std::vector<PlanStep>* steps : {&plan.disassembly, &plan.assembly_steps})
+    for (PlanStep& step : *steps)
+      for (PlanVerdict& verdict : step.checks) verdict.certificate.reset();
+  for (PlanObjectiveItem& item : plan.objective.checks)
+    if (item.plan) item.plan->certificate.reset();
+  return to_json(plan);
+}
+
 }  // namespace
 
 std::string to_page(const Plan& plan, const Assembly& assembly, const std::string& page_template,
@@ -126,7 +136,7 @@ std::string to_page(const Plan& plan, const Assembly& assembly, const std::strin
   const std::size_t place = page_template.find(mark);
   if (place == std::string::npos || page_template.find(mark, place + 1) != std::string::npos)
     throw Error("the viewer's template does not have exactly one place for the data");
-  std::string data = "{\"format\":\"dismantle.page\",\"version\":2,\"plan\":" + to_json(plan);
+  std::string data = "{\"format\":\"dismantle.page\",\"version\":2,\"plan\":" + drawn_json(plan);
   const auto add = [&](const char* key, const PageJson& value) {
     data += key + value.dump(-1, ' ', false, PageJson::error_handler_t::replace);
   };

@@ -46,7 +46,7 @@ class Holds {
 /// lies, nothing is said of it.
 template <class ChecksOf>
 StepsJson steps_json(const Plan& plan, const std::vector<PlanStep>& steps, const StepUps& ups, ChecksOf checks_of) {
-  const InputFrame frame = input_frame(plan.assembly);
+  const InputFrame frame = input_frame(plan);
   const Holds holds(plan);
   StepsJson out = StepsJson::array();
   const bool said = std::ranges::any_of(ups, [](const auto& up) { return up.has_value(); });
@@ -55,7 +55,7 @@ StepsJson steps_json(const Plan& plan, const std::vector<PlanStep>& steps, const
     if (said) {
       const Eigen::Quaterniond q = frame.lies(ups[s]);
       step["lies"] = {q.w(), q.x(), q.y(), q.z()};
-      step["lies_words"] = lie_words(ups[s].value_or(frame.up()), frame.y_up);
+      step["lies_words"] = lie_words(ups[s].value_or(frame.up), frame.up);
       step["turned"] = s > 0 && ups[s] != ups[s - 1];
     }
     if (const auto held = holds.of(checks_of(steps[s])); !held.empty()) step["hold"] = held;

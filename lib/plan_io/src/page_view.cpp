@@ -110,7 +110,8 @@ ViewJson page_view(const Plan& plan, const Assembly& assembly, const PartShapes&
   const Explanation why = explain(plan, settings);
   ViewJson untried = ViewJson::array();
   for (const std::string& name : why.untried) untried.push_back(history.index_of(name));
-  return {{"up", input_frame(plan.assembly).y_up ? "y" : "z"},
+  const Eigen::Vector3d up = input_frame(plan).up;
+  return {{"up", {up.x(), up.y(), up.z()}},
           {"leavers", history.leavers()},
           {"account", account_json(plan)},
           {"steps", page_steps(plan)},

@@ -109,9 +109,9 @@ void tell_parts(const Plan& plan, PlanAccount& out) {
     out.assumed.push_back(fmt::format("{} without a closed surface: a wall each", text::counted(open, "part")));
   if (const std::size_t kept = count_of(a.components, [](const PlanComponent& c) { return c.kept; }); kept > 0)
     out.assumed.push_back(fmt::format("{} of several bodies: one unit each", text::counted(kept, "product")));
-  const InputFrame frame = input_frame(a);
+  const InputFrame frame = input_frame(plan);
   if (!frame.unit_known) out.assumed.push_back("the files name no unit");
-  out.assumed.push_back(fmt::format("drawn with {} up", frame.y_up ? "+Y" : "+Z"));
+  out.assumed.push_back(fmt::format("drawn with {} up", axis_text(frame.up)));
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ std::string moves_text(const Plan& plan, const InputFrame& frame, TextUnit unit,
   const Eigen::Vector3d middle = box.empty() ? plan.assembly.center : box.center();
   const MotionSummary motion = summarize_motion(step.moves.front().poses, middle, leg_tolerance(size));
   return fmt::format("       {}{}\n",
-                     motion_words(in_unit(motion, unit.factor), unit.name, frame.y_up, frame.lies(step.up)),
+                     motion_words(in_unit(motion, unit.factor), unit.name, frame.up, frame.lies(step.up)),
                      step.separates.empty() ? ", and stays there" : "");
 }
 
@@ -119,7 +119,7 @@ std::string summary_text(const Plan& plan, bool details, TextUnit unit) {
   // In a puzzle, how far each piece goes is the solution; elsewhere parts just leave.
   const bool puzzle = std::any_of(plan.disassembly.begin(), plan.disassembly.end(),
                                   [](const PlanStep& step) { return step.separates.empty(); });
-  const InputFrame frame = puzzle ? input_frame(a) : InputFrame{};
+  const InputFrame frame = puzzle ? input_frame(plan) : InputFrame{};
   for (const auto& step : plan.disassembly) {
     std::string line = fmt::format("{:>5}  {}", step.step, text::padded(text::names_of(plan, step), width));
     if (details) line += fmt::format("  {:8.2f} s", step.seconds);

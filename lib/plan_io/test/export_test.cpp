@@ -21,6 +21,16 @@ namespace {
 
 using ExportJson = nlohmann::json;
 
+const Eigen::Vector3d kY = Eigen::Vector3d::UnitY(), kZ = Eigen::Vector3d::UnitZ();
+
+/// Every axis both ways, and a direction that is none.
+std::vector<Eigen::Vector3d> drawn_ups() {
+  std::vector<Eigen::Vector3d> out{Eigen::Vector3d(0.48, 0.6, -0.64)};
+  for (int k = 0; k < 3; ++k)
+    for (const double sign : {1.0, -1.0}) out.emplace_back(sign * Eigen::Vector3d::Unit(k));
+  return out;
+}
+
 TEST(Exports, TheAndOrGraphIsATreeDownToTheParts) {
   std::mt19937 random(2);
   for (int trial = 0; trial < 30; ++trial) {
@@ -179,7 +189,7 @@ TEST(MotionWords, AScrewIsToldByItsTurnsAndItsSense) {
       }
       const MotionSummary motion = summarize_motion(poses, {0, 0, 1}, 0.01);
       EXPECT_NEAR(motion.turn, 2 * std::numbers::pi * turns, 1e-9);
-      const std::string words = motion_words(motion, "mm", false);
+      const std::string words = motion_words(motion, "mm", kZ);
       // A right-hand screw that goes in turns clockwise when seen along its motion.
       EXPECT_NE(words.find(hand > 0 ? " clockwise" : "counter-clockwise"), std::string::npos) << words;
       EXPECT_EQ(words.find("3 mm down (-Z)"), 0u) << words;
@@ -223,7 +233,7 @@ TEST(MotionWords, SlidesAreToldOneByOne) {
         if (!slides) leg[(k + 1) % 3] = 0.5 * k;
         poses.push_back({poses.back().t + turned * leg, Pose{}.q});
       }
-      const std::string words = motion_words(summarize_motion(poses, {0, 0, 0}, 1e-3), "mm", false);
+      const std::string words = motion_words(summarize_motion(poses, {0, 0, 0}, 1e-3), "mm", kZ);
       std::size_t told = 1;
       for (std::size_t at = words.find(", then "); at != std::string::npos; at = words.find(", then ", at + 1)) ++told;
       EXPECT_EQ(told, slides ? legs : 1) << words;
@@ -231,25 +241,40 @@ TEST(MotionWords, SlidesAreToldOneByOne) {
 }
 
 TEST(MotionWords, DirectionsAreThoseOfSomeoneBeforeTheAssembly) {
-  EXPECT_EQ(direction_words({0, 0, 2}, false), "up (+Z)");
-  EXPECT_EQ(direction_words({0, 2, 0}, true), "up (+Y)");
-  EXPECT_EQ(direction_words({0, -1, 0}, false), "to the front (-Y)");
-  EXPECT_EQ(direction_words({0, 0, 1}, true), "to the front (+Z)");
-  EXPECT_EQ(direction_words({-1, 0, -1}, false), "down and left (-0.71, 0, -0.71)");
-  EXPECT_THROW(direction_words({0, 0, 0}, false), Error);
-  EXPECT_EQ(lie_words({0, 0, -1}, false), "upside down (-Z up)");
-  EXPECT_EQ(lie_words({1, 0, 0}, false), "on its left side (+X up)");
-  EXPECT_EQ(lie_words({0, 1, 0}, false), "on its front (+Y up)");
-  EXPECT_EQ(lie_words({0, 0, 1}, true), "on its back (+Z up)");
-  // Law: what is put in against the upward direction of the step goes down, for any orientation.
-  for (const bool y_up : {false, true}) {
+  EXPECT_EQ(direction_words({0, 0, 2}, kZ), "up (+Z)");
+  EXPECT_EQ(direction_words({0, 2, 0}, kY), "up (+Y)");
+  EXPECT_EQ(direction_words({0, -1, 0}, kZ), "to the front (-Y)");
+  EXPECT_EQ(direction_words({0, 0, 1}, kY), "to the front (+Z)");
+  EXPECT_EQ(direction_words({-1, 0, -1}, kZ), "down and left (-0.71, 0, -0.71)");
+  EXPECT_THROW(direction_words({0, 0, 0}, kZ), Error);
+  EXPECT_EQ(lie_words({0, 0, -1}, kZ), "upside down (-Z up)");
+  EXPECT_EQ(lie_words({1, 0, 0}, kZ), "on its left side (+X up)");
+  EXPECT_EQ(lie_words({0, 1, 0}, kZ), "on its front (+Y up)");
+  EXPECT_EQ(lie_words({0, 0, 1}, kY), "on its back (+Z up)");
+  EXPECT_EQ(direction_words({1, 0, 0}, -kZ), "right (+X)") << "upside down over the front";
+  EXPECT_EQ(direction_words({0, 1, 0}, -kZ), "to the front (+Y)");
+  EXPECT_EQ(direction_words({1, 0, 0}, Eigen::Vector3d::UnitX()), "up (+X)");
+  EXPECT_EQ(lie_words({0, 0, 1}, -kZ), "upside down (+Z up)");
+  // Law: right, back and up of a person are a right-handed frame of the input, whatever is up.
+  for (const Eigen::Vector3d& drawn : drawn_ups()) {
+    const Eigen::Quaterniond input = upright(drawn).conjugate();
+    EXPECT_LT((input * kZ - drawn).norm(), 1e-12);
+    EXPECT_TRUE(direction_words(drawn, drawn).starts_with("up ("));
+    EXPECT_TRUE(direction_words(input * Eigen::Vector3d::UnitX(), drawn).starts_with("right ("));
+    EXPECT_TRUE(direction_words(input * kY, drawn).starts_with("to the back ("));
     InputFrame frame;
-    frame.y_up = y_up;
+    frame.up = drawn;
+    EXPECT_LT((frame.to_y_up() * drawn - kY).norm(), 1e-12) << "glTF has Y up";
+  }
+  // Law: what is put in against the upward direction of the step goes down, for any orientation.
+  for (const Eigen::Vector3d& drawn : drawn_ups()) {
+    InputFrame frame;
+    frame.up = drawn;
     Rng rng(3);
     for (int n = 0; n < 50; ++n) {
       Eigen::Vector3d up = Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal()).normalized();
       if (n < 6) up = (n % 2 == 0 ? 1 : -1) * Eigen::Vector3d::Unit(n / 2);
-      const std::string words = direction_words(-up, y_up, frame.lies(up));
+      const std::string words = direction_words(-up, drawn, frame.lies(up));
       EXPECT_EQ(words.substr(0, 6), "down (") << words;
     }
   }
@@ -286,7 +311,7 @@ TEST(InputFrame, TextsUseTheUnitOfPeople) {
   EXPECT_NE(steps_csv(plan, inch).find(",inch,"), std::string::npos);
   const MotionSummary motion =
       in_unit(summarize_motion({Pose{}, Pose{{0, 0, -0.0358}, {1, 0, 0, 0}}}, {0, 0, 0}, 1e-3), 1000);
-  EXPECT_EQ(motion_words(motion, "mm", false), "35.8 mm down (-Z)");
+  EXPECT_EQ(motion_words(motion, "mm", kZ), "35.8 mm down (-Z)");
 }
 
 TEST(InputFrame, UnitsOfImportersAreKnownAndOthersNamed) {
@@ -295,10 +320,10 @@ TEST(InputFrame, UnitsOfImportersAreKnownAndOthersNamed) {
   PlanAssembly a;
   EXPECT_EQ(input_frame(a).unit, "mm");
   a.parts = {{0, "a", "a.GLB", {}, {}}};
-  EXPECT_TRUE(input_frame(a).y_up);
+  EXPECT_EQ(input_frame(a).up, kY);
   EXPECT_EQ(input_frame(a).metres, 1);
   a.parts.push_back({1, "b", "b.stl", {}, {}});
-  EXPECT_FALSE(input_frame(a).y_up);
+  EXPECT_EQ(input_frame(a).up, kZ);
 }
 
 TEST(Summary, SaysOfAPuzzleWhereToAndHowFarEachPieceGoes) {

@@ -42,12 +42,13 @@ TEST(PageSteps, WhatIsUpInAStepPointsUpwards) {
   for_plans([&](Plan plan, const Assembly&) {
     for (const bool y_up : {false, true}) {
       for (PlanPart& part : plan.assembly.parts) part.file = y_up ? "x.glb" : "x.obj";
+      plan.objective.up = y_up ? Eigen::Vector3d(0, -1, 0) : Eigen::Vector3d(0, 0, 1);
       const StepsJson steps = page_steps(plan);
       const std::size_t n = plan.disassembly.size();
       ASSERT_EQ(steps["disassembly"].size(), n);
       ASSERT_EQ(steps["assembly"].size(), plan.assembly_steps.size());
       const bool said = std::ranges::any_of(plan.disassembly, [](const PlanStep& s) { return s.up.has_value(); });
-      const Eigen::Vector3d up = input_frame(plan.assembly).up();
+      const Eigen::Vector3d up = input_frame(plan).up;
       for (std::size_t s = 0; s < n; ++s) {
         const StepsJson& step = steps["disassembly"][s];
         ASSERT_EQ(step.contains("lies"), said);

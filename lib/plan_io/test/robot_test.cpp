@@ -46,8 +46,7 @@ std::vector<double> numbers_in(const std::string& text) {
 
 /// What coordinates count in: metres with Z up.
 Pose in_metres(const Pose& p, const InputFrame& frame) {
-  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
-  if (frame.y_up) turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ());
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(frame.up, Eigen::Vector3d::UnitZ());
   return {frame.metres * (turn * p.t), turn * p.q * turn.conjugate()};
 }
 
@@ -66,11 +65,11 @@ void turn_the_steps(Plan& plan, std::mt19937& random) {
 
 TEST(Mjcf, AKeyframeIsTheStateAfterItsStep) {
   std::mt19937 random(5);
-  for (const bool y_up : {false, true}) {
+  for (const Eigen::Vector3d& up : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(0, 0.6, -0.8)}) {
     auto [plan, assembly] = random_disassembly(random, 7);
     turn_the_steps(plan, random);
     InputFrame frame = input_frame(plan.assembly);
-    frame.y_up = y_up;
+    frame.up = up;
     frame.metres = 0.0254;
     const PlanHistory history(plan);
     const std::string xml = by_name(to_mjcf(plan, assembly, frame)).at("assembly.xml");

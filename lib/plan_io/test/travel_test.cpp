@@ -99,7 +99,7 @@ TEST(Travel, IsNeverLongerThanThePathAndNoneWhereThePathIsNotStraight) {
 
 TEST(Travel, WordsSayWhatIsSeen) {
   const MotionSummary motion = summarize_motion({Pose{}, Pose{{0, 0, -4}, Eigen::Quaterniond::Identity()}}, {0, 0, 0}, 0.1);
-  const MotionPhrase together{{"mm", 25.4}, false, 10, false}, apart{{"mm", 25.4}, false, 10, true};
+  const MotionPhrase together{{"mm", 25.4}, Eigen::Vector3d::UnitZ(), 10, false}, apart{{"mm", 25.4}, Eigen::Vector3d::UnitZ(), 10, true};
   const auto upright = Eigen::Quaterniond::Identity();
   EXPECT_EQ(travel_words(motion, 2.0, together, upright), "50.8 mm down (-Z)");
   EXPECT_EQ(travel_words(motion, 0.0, together, upright), "down (-Z), until it seats");

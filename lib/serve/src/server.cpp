@@ -11,6 +11,7 @@
 #include "access.h"
 #include "constraints.h"
 #include "dismantle/errors.h"
+#include "dismantle/geometry/direction.h"
 #include "dismantle/plan_io/read_file.h"
 #include "dismantle/plan_io/write_file.h"
 #include "folder.h"
@@ -284,6 +285,11 @@ class Server::Impl {
     if (!(timeout > 0) || timeout > kLongest)
       throw Refusal{400, fmt::format("'timeout' must be above 0 and at most {:.0f} s", kLongest)};
     std::vector<std::string> arguments{"plan", entry.input.string(), "--timeout", fmt::format("{}", timeout)};
+    if (question.contains("up")) {
+      if (!question["up"].is_string() || !direction_named(question["up"].get<std::string>()))
+        throw Refusal{400, fmt::format("'up' must be a direction: {}", kDirectionForms)};
+      arguments.push_back("--up=" + question["up"].get<std::string>());
+    }
     if (const auto settings = folder_.settings(entry.name))
       arguments.insert(arguments.end(), {"-c", settings->string()});
     start(entry, "plan", std::move(arguments), timeout);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dismantle/errors.h"
+#include "dismantle/plan_io/input_frame.h"
 #include "dismantle/session/objective.h"
 
 namespace dismantle {
@@ -54,9 +55,13 @@ PluginChoice with_best_order(const RunConfig& config, const Registry& registry, 
 
 }  // namespace
 
-Objective objective_of(const RunConfig& config, const Registry& registry) {
+Eigen::Vector3d up_of(const LayoutOptions& layout, const Assembly& assembly) {
+  return layout.up == "auto" ? input_frame(assembly).up : layout.up_axis();
+}
+
+Objective objective_of(const RunConfig& config, const Registry& registry, const Eigen::Vector3d& up) {
   Objective out;
-  out.up = config.layout.up_axis();
+  out.up = up;
   for (const PluginChoice& choice : checks_of(config, registry)) {
     const ObjectiveOptions options = Schema<ObjectiveOptions>().bind(choice.options);
     out.items.push_back({choice.type, registry.create<StepCheck>(choice.type, choice.parameters), options.weight,
@@ -65,7 +70,7 @@ Objective objective_of(const RunConfig& config, const Registry& registry) {
   return out;
 }
 
-PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registry) {
+PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registry, const Eigen::Vector3d& up) {
   PlanningSetup out;
   out.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.parameters);
   out.path_planner = [&registry, choice = config.path_planner] {
@@ -83,7 +88,7 @@ PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registr
   }
   for (const PluginChoice& choice : config.provers)
     out.provers.push_back({choice.type, registry.create<ImmobilityProver>(choice.type, choice.parameters)});
-  out.objective = objective_of(config, registry);
+  out.objective = objective_of(config, registry, up);
   return out;
 }
 

@@ -13,6 +13,7 @@
 #include "dismantle/fasteners/recognise.h"
 #include "dismantle/host/suggest.h"
 #include "dismantle/preparation/flexible_parts.h"
+#include "dismantle/session/objective.h"
 #include "importers.h"
 #include "kept_components.h"
 #include "planning_setup.h"
@@ -72,8 +73,9 @@ std::string constraint_keepers(const Registry& registry) {
   return out.empty() ? "none of those that were found does" : "these do: " + out;
 }
 
-PlanningSetup checked_setup(const RunConfig& config, const Registry& registry, const std::string& part) {
-  PlanningSetup setup = planning_setup_of(config, registry);
+PlanningSetup checked_setup(const RunConfig& config, const Registry& registry, const std::string& part,
+                            const Eigen::Vector3d& up) {
+  PlanningSetup setup = planning_setup_of(config, registry, up);
   const NamedConstraints& c = config.constraints;
   const bool constrained = !(c.base.empty() && c.together.empty() && c.before.empty() && c.target.empty());
   if (part.empty() && constrained && !setup.sequence_planner->traits().keeps_constraints)
@@ -192,13 +194,17 @@ std::shared_ptr<const Assembly> Session::declared(const LoadedAssembly& loaded) 
 
 RunOptions Session::options_for(const LoadedAssembly& loaded, const Assembly& assembly, const std::string& part) const {
   RunOptions out = run_options_of(config());
+  const Eigen::Vector3d up = up_of(out.layout, assembly);
+  out.layout.up = fmt::format("{},{},{}", up.x(), up.y(), up.z());
   out.only_part = part;
   if (part.empty()) out.constraints = constraints_of(config().constraints, assembly);
   out.flexible = with_declared(loaded.report.flexible, config().constraints.flexible, assembly);
   return out;
 }
 
-void Session::check(const PlanRequest& request) const { checked_setup(config(), *registry_, request.part); }
+void Session::check(const PlanRequest& request) const {
+  checked_setup(config(), *registry_, request.part, Eigen::Vector3d::UnitZ());  // whatever is up
+}
 
 /// The steps of an earlier plan that a run goes on from.
 static Disassembly steps_of(const Plan& plan, const Assembly& assembly, const PlanRequest& request) {
@@ -221,7 +227,8 @@ RunResult Session::plan(const LoadedAssembly& loaded, const std::optional<RunCon
     if (!request.part.empty()) throw Error("a plan of one part does not go on from another plan");
     options.resume = *request.steps;
   }
-  const PlanningSetup setup = checked_setup(config(), *registry_, request.part);
+  const PlanningSetup setup =
+      checked_setup(config(), *registry_, request.part, up_of(config().layout, *assembly));
   if (!request.part.empty()) return run(*assembly, setup, options, context, request.on_step);
   const bool keeps = setup.sequence_planner->traits().keeps_constraints;
   const auto components =
@@ -236,7 +243,8 @@ Plan Session::plan_of(const Disassembly& so_far, const LoadedAssembly& loaded, c
   const auto assembly = declared(loaded);
   RunOptions options = options_for(loaded, *assembly, request.part);
   if (!request.part.empty()) return dismantle::plan_of(so_far, *assembly, options);
-  const bool keeps = checked_setup(config(), *registry_, request.part).sequence_planner->traits().keeps_constraints;
+  const PlanningSetup setup = checked_setup(config(), *registry_, request.part, up_of(config().layout, *assembly));
+  const bool keeps = setup.sequence_planner->traits().keeps_constraints;
   const auto components = kept_components(*assembly, config(), keeps, &so_far);
   keep_together(components, options.constraints);
   Plan plan = dismantle::plan_of(so_far, *assembly, options);

@@ -49,7 +49,7 @@ export class Stage {
     this.onView = null;   // called after the camera has moved
     this.#light();
     this.#ground();
-    this.setUp('z');
+    this.setUp([0, 0, 1]);
     new ResizeObserver(() => this.resize()).observe(container);
     this.resize();
     this.before = 0;
@@ -91,9 +91,11 @@ export class Stage {
     this.scene.add(this.ground);
   }
 
-  setUp(axis) {
-    this.axis = axis;
-    this.up = axis === 'z' ? new THREE.Vector3(0, 0, 1) : new THREE.Vector3(0, 1, 0);
+  /** `up`: a direction of the scene, unit. */
+  setUp(up) {
+    this.up = new THREE.Vector3(...up);
+    // From a scene with Z up: the shortest turn; upside down over the front, so that right stays right.
+    this.upright = up[2] < -1 + 1e-9 ? new THREE.Quaternion(1, 0, 0, 0) : new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), this.up);
     this.camera.up.copy(this.up);
     this.#control();
     this.sky.position.copy(this.up);
@@ -108,7 +110,7 @@ export class Stage {
     const low = box.min.dot(this.up), r = 1.6 * sphere.radius;
     this.ground.position.copy(sphere.center).addScaledVector(this.up, low - sphere.center.dot(this.up) - 0.004 * this.size);
     this.ground.scale.setScalar(8 * sphere.radius);
-    const side = this.axis === 'z' ? new THREE.Vector3(-0.35, -0.25, 0) : new THREE.Vector3(-0.35, 0, 0.25);
+    const side = new THREE.Vector3(-0.35, -0.25, 0).applyQuaternion(this.upright);
     this.sun.target.position.copy(sphere.center);
     this.sun.position.copy(sphere.center).addScaledVector(side.add(this.up), 2 * r);
     const shadow = this.sun.shadow.camera;
@@ -189,7 +191,8 @@ export class Stage {
     const out = new THREE.Vector3();
     if (from === null) return out.subVectors(this.camera.position, this.controls.target).normalize();
     const [x, y, z] = typeof from === 'string' ? Stage.DIRECTIONS[from] : from;
-    if (this.axis === 'y' && typeof from === 'string') out.set(x, z, -y); else out.set(x, y, z);
+    out.set(x, y, z);
+    if (typeof from === 'string') out.applyQuaternion(this.upright);
     return out.normalize();
   }
 

@@ -5,13 +5,20 @@ const THEMES = ['auto', 'light', 'dark'];
 const TRAILS = ['step', 'all', 'none'];
 const TRAIL_WORDS = {step: 'Paths: of this step (T)', all: 'Paths: of all steps (T)', none: 'Paths: none (T)'};
 
+const AXES = [[0, 0, 1], [0, 1, 0], [1, 0, 0], [0, 0, -1], [0, -1, 0], [-1, 0, 0]];
+const same = (a, b) => a.every((x, k) => Math.abs(x - b[k]) < 1e-9);
+const axisWords = up => {
+  const k = up.findIndex(x => Math.abs(x) > 1 - 1e-9);
+  return k < 0 ? up.map(x => Number(x.toFixed(2))).join(', ') : (up[k] < 0 ? '-' : '') + 'XYZ'[k];
+};
+
 export class Display {
   constructor(app) {
     this.app = app;
     this.theme = 'auto';
     this.media = matchMedia('(prefers-color-scheme: dark)');
     this.media.addEventListener('change', () => this.apply());
-    this.axis = app.model.view.up;
+    this.up = app.model.view.up;
   }
 
   get dark() {
@@ -35,9 +42,11 @@ export class Display {
     this.app.tell('display');
   }
 
+  /** The next of: what the plan says, then the axes. */
   turnUp() {
-    this.axis = this.axis === 'z' ? 'y' : 'z';
-    this.app.stage?.setUp(this.axis);
+    const all = [this.app.model.view.up, ...AXES].filter((a, k, list) => list.findIndex(b => same(a, b)) === k);
+    this.up = all[(all.findIndex(a => same(a, this.up)) + 1) % all.length];
+    this.app.stage?.setUp(this.up);
     if (this.app.stage) this.app.place();
     this.app.settle();
     this.app.stage?.fit(this.app.parts.boxes(i => this.app.opacity(i) > 0), {fly: false, from: 'corner', margin: 1.3});
@@ -81,7 +90,7 @@ export function makeTools(app, display, help) {
     name(fade, app.fading ? 'Parts that are out vanish (R)' : 'Parts that are out stay (R)');
     fade.classList.toggle('on', app.fading);
     name(colours, app.colours === 'given' ? 'Colours: of the parts (C)' : 'Colours: by order (C)');
-    name(up, `Up is ${display.axis.toUpperCase()} (U)`);
+    name(up, `Up is ${axisWords(display.up)} (U)`);
     name(ground, app.stage?.groundOn === false ? 'Shadow on the ground: off (G)' : 'Shadow on the ground: on (G)');
     name(theme, `Theme: ${display.theme} (L)`);
   };

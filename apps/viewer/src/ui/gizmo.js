@@ -29,8 +29,11 @@ export function makeGizmo(app) {
       from[k] = 1;
       turned(from, from);
       // A view along the up axis would leave the camera's up direction undefined.
-      const up = app.stage.up.toArray();
-      if (Math.abs(from[0] * up[0] + from[1] * up[1] + from[2] * up[2]) > 0.999) from[app.stage.axis === 'z' ? 1 : 2] += app.stage.axis === 'z' ? -1e-3 : 1e-3;
+      const up = app.stage.up;
+      if (Math.abs(from[0] * up.x + from[1] * up.y + from[2] * up.z) > 0.999) {
+        const front = up.clone().set(0, -1e-3, 0).applyQuaternion(app.stage.upright).toArray();
+        for (let i = 0; i < 3; ++i) from[i] += front[i];
+      }
       app.fit(true, 1.2, from);
     });
     svg.append(group);

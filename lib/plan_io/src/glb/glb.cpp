@@ -53,7 +53,9 @@ void animate(const Track& track, GlbScene& scene, std::map<std::vector<float>, s
 }  // namespace
 
 std::vector<std::uint8_t> to_glb(const Plan& plan, const Assembly& assembly) {
-  return to_glb(plan, assembly, input_frame(assembly));
+  InputFrame frame = input_frame(assembly);
+  if (!plan.objective.empty()) frame.up = plan.objective.up;
+  return to_glb(plan, assembly, frame);
 }
 
 std::vector<std::uint8_t> to_glb(const Plan& plan, const Assembly& assembly, const InputFrame& frame) {

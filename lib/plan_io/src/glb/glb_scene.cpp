@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "dismantle/plan_io/shading.h"
+#include "dismantle/plan_io/motion_words.h"
 #include "glb/glb_colours.h"
 
 namespace dismantle {
@@ -47,9 +48,11 @@ GlbScene::GlbScene(const Plan& plan, const Assembly& assembly, const InputFrame&
   origin_ = assembly.input_box.empty() ? Eigen::Vector3d(0, 0, 0) : assembly.input_box.center();
   GlbJson root = {{"name", "assembly"}};
   root["translation"] = array_of(Eigen::Vector3d(frame.metres * (frame.to_y_up() * origin_)));
-  if (!frame.y_up) root["rotation"] = array_of(frame.to_y_up());
+  const Eigen::Quaterniond turn = frame.to_y_up();
+  if (!turn.vec().isZero(0)) root["rotation"] = array_of(turn);
   root["scale"] = {frame.metres, frame.metres, frame.metres};
-  root["extras"] = {{"input_unit", frame.unit}, {"unit_known", frame.unit_known}, {"input_up", frame.y_up ? "Y" : "Z"}};
+  const std::string up = axis_text(frame.up);
+  root["extras"] = {{"input_unit", frame.unit}, {"unit_known", frame.unit_known}, {"input_up", up[0] == '+' ? up.substr(1) : up}};
   nodes_.push_back(nullptr);
 
   const std::vector<GlbPaint> paints = paint_parts(plan, assembly);

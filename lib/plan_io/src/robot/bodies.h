@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,16 +17,14 @@ namespace dismantle {
 /// From input units and axes to metres with Z up.
 class RobotFrame {
  public:
-  explicit RobotFrame(const InputFrame& frame) : metres_(frame.metres) {
-    if (frame.y_up) turn_ = Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX());
-  }
+  explicit RobotFrame(const InputFrame& frame) : metres_(frame.metres), turn_(upright(frame.up)) {}
   Eigen::Vector3d point(const Eigen::Vector3d& input) const { return metres_ * (turn_ * input); }
   Pose pose(const Pose& input) const { return {point(input.t), turn_ * input.q * turn_.conjugate()}; }
   double metres() const { return metres_; }
 
  private:
   double metres_;
-  Eigen::Quaterniond turn_ = Eigen::Quaterniond::Identity();
+  Eigen::Quaterniond turn_;
 };
 
 /// SI units, in the frame of the assembly.

@@ -10,6 +10,8 @@
 namespace dismantle {
 namespace {
 
+const Eigen::Quaterniond kOverItsFront{0, 1, 0, 0};  // upside down: right stays right
+
 bool is_gltf(std::string file) {
   std::ranges::transform(file, file.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return file.ends_with(".glb") || file.ends_with(".gltf");
@@ -18,9 +20,10 @@ bool is_gltf(std::string file) {
 template <class Parts>
 InputFrame frame_of(const std::string& unit, const Parts& parts) {
   InputFrame out;
-  out.y_up = !parts.empty() && std::ranges::all_of(parts, [](const auto& part) { return is_gltf(part.file); });
+  const bool gltf = !parts.empty() && std::ranges::all_of(parts, [](const auto& part) { return is_gltf(part.file); });
+  if (gltf) out.up = Eigen::Vector3d::UnitY();
   out.unit_known = !unit.empty();
-  out.unit = out.unit_known ? unit : out.y_up ? "m" : "mm";
+  out.unit = out.unit_known ? unit : gltf ? "m" : "mm";
   out.metres = metres_in(out.unit);
   return out;
 }
@@ -28,15 +31,21 @@ InputFrame frame_of(const std::string& unit, const Parts& parts) {
 }  // namespace
 
 Eigen::Quaterniond InputFrame::to_y_up() const {
-  if (y_up) return Eigen::Quaterniond::Identity();
+  if (up == Eigen::Vector3d::UnitY()) return Eigen::Quaterniond::Identity();
   const double half = std::numbers::sqrt2 / 2;
-  return {half, -half, 0, 0};
+  return Eigen::Quaterniond(half, -half, 0, 0) * upright(up);
 }
 
 Eigen::Quaterniond InputFrame::lies(const std::optional<Eigen::Vector3d>& way_up) const {
   if (!way_up) return Eigen::Quaterniond::Identity();
-  if (way_up->dot(up()) < -1 + 1e-9) return {0, 1, 0, 0};  // over its front: right stays right
-  return Eigen::Quaterniond::FromTwoVectors(*way_up, up());
+  if (way_up->dot(up) < -1 + 1e-9) return upright(up).conjugate() * kOverItsFront * upright(up);
+  return Eigen::Quaterniond::FromTwoVectors(*way_up, up);
+}
+
+Eigen::Quaterniond upright(const Eigen::Vector3d& up) {
+  if (up == Eigen::Vector3d::UnitZ()) return Eigen::Quaterniond::Identity();
+  if (up.z() < -1 + 1e-9) return kOverItsFront;
+  return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
 }
 
 TextUnit text_unit(const std::string& unit, const Aabb& box) {
@@ -62,5 +71,11 @@ InputFrame shown_in(InputFrame frame, const std::string& unit) {
 
 InputFrame input_frame(const Assembly& assembly) { return frame_of(assembly.unit, assembly.parts); }
 InputFrame input_frame(const PlanAssembly& assembly) { return frame_of(assembly.unit, assembly.parts); }
+
+InputFrame input_frame(const Plan& plan) {
+  InputFrame out = input_frame(plan.assembly);
+  if (!plan.objective.empty()) out.up = plan.objective.up;
+  return out;
+}
 
 }  // namespace dismantle

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "dismantle/errors.h"
+#include "dismantle/plan_io/input_frame.h"
 
 namespace dismantle {
 namespace {
@@ -122,18 +123,24 @@ MotionSummary summarize_motion(const std::vector<Pose>& poses, const Eigen::Vect
   return out;
 }
 
-std::string direction_words(const Eigen::Vector3d& direction, bool y_up, const Eigen::Quaterniond& lies) {
+std::string axis_text(const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d d = direction.normalized();
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(d[k]) > kOneAxis) return fmt::format("{}{}", d[k] > 0 ? '+' : '-', "XYZ"[k]);
+  const auto rounded = [](double x) { return std::round(100 * x) / 100 + 0.0; };
+  return fmt::format("({}, {}, {})", rounded(d.x()), rounded(d.y()), rounded(d.z()));
+}
+
+std::string direction_words(const Eigen::Vector3d& direction, const Eigen::Vector3d& drawn_up,
+                            const Eigen::Quaterniond& lies) {
   const double length = direction.norm();
   if (!(length > 0) || !std::isfinite(length)) throw Error("a direction without length has no words");
-  const Eigen::Vector3d d = direction / length, seen = lies * d;
-  // Right, back, up: for Z up seen from -Y, for Y up seen from +Z.
+  const Eigen::Vector3d seen = upright(drawn_up) * (lies * (direction / length));
   struct Axis {
     Eigen::Index k;
     const char *plus, *minus;
   };
-  const Axis axes[3] = {{y_up ? 1 : 2, "up", "down"},
-                        {0, "right", "left"},
-                        {y_up ? 2 : 1, y_up ? "to the front" : "to the back", y_up ? "to the back" : "to the front"}};
+  const Axis axes[3] = {{2, "up", "down"}, {0, "right", "left"}, {1, "to the back", "to the front"}};
   std::string words;
   for (const Axis& axis : axes)
     if (std::abs(seen[axis.k]) > kOneAxis) words = seen[axis.k] > 0 ? axis.plus : axis.minus;
@@ -141,26 +148,20 @@ std::string direction_words(const Eigen::Vector3d& direction, bool y_up, const E
   for (const Axis& axis : axes)
     if (several && std::abs(seen[axis.k]) > 0.2)  // a smaller share of the direction is not named
       words += (words.empty() ? "" : " and ") + std::string(seen[axis.k] > 0 ? axis.plus : axis.minus);
-  for (int k = 0; k < 3; ++k)
-    if (std::abs(d[k]) > kOneAxis) return fmt::format("{} ({}{})", words, d[k] > 0 ? '+' : '-', "XYZ"[k]);
-  const auto rounded = [](double x) { return std::round(100 * x) / 100 + 0.0; };
-  return fmt::format("{} ({}, {}, {})", words, rounded(d.x()), rounded(d.y()), rounded(d.z()));
+  const std::string axis = axis_text(direction);
+  return words + (axis.starts_with('(') ? " " + axis : " (" + axis + ")");
 }
 
-std::string lie_words(const Eigen::Vector3d& up, bool y_up) {
-  const Eigen::Index vertical = y_up ? 1 : 2, back = y_up ? 2 : 1;
-  const double to_back = y_up ? -up[back] : up[back];
-  const std::string side = std::abs(up[vertical]) > kOneAxis ? (up[vertical] > 0 ? "as drawn" : "upside down")
-                           : std::abs(up.x()) > kOneAxis     ? (up.x() > 0 ? "on its left side" : "on its right side")
-                           : std::abs(to_back) > kOneAxis    ? (to_back > 0 ? "on its front" : "on its back")
-                                                             : "turned";
-  for (int k = 0; k < 3; ++k)
-    if (std::abs(up[k]) > kOneAxis) return fmt::format("{} ({}{} up)", side, up[k] > 0 ? '+' : '-', "XYZ"[k]);
-  const auto rounded = [](double x) { return std::round(100 * x) / 100 + 0.0; };
-  return fmt::format("{} (({}, {}, {}) up)", side, rounded(up.x()), rounded(up.y()), rounded(up.z()));
+std::string lie_words(const Eigen::Vector3d& up, const Eigen::Vector3d& drawn_up) {
+  const Eigen::Vector3d seen = upright(drawn_up) * up;
+  const char* side = std::abs(seen.z()) > kOneAxis   ? (seen.z() > 0 ? "as drawn" : "upside down")
+                     : std::abs(seen.x()) > kOneAxis ? (seen.x() > 0 ? "on its left side" : "on its right side")
+                     : std::abs(seen.y()) > kOneAxis ? (seen.y() > 0 ? "on its front" : "on its back")
+                                                     : "turned";
+  return fmt::format("{} ({} up)", side, axis_text(up));
 }
 
-std::string motion_words(const MotionSummary& motion, const std::string& unit, bool y_up,
+std::string motion_words(const MotionSummary& motion, const std::string& unit, const Eigen::Vector3d& drawn_up,
                          const Eigen::Quaterniond& lies) {
   const std::string of_unit = unit.empty() ? "" : " " + unit;
   std::string out;
@@ -168,11 +169,11 @@ std::string motion_words(const MotionSummary& motion, const std::string& unit, b
     out = fmt::format("along its path, {}{} in all", figure_text(motion.length), of_unit);
     if (motion.displacement.norm() > 1e-3 * motion.length)
       out += fmt::format(", to a place {}{} {}", figure_text(motion.displacement.norm()), of_unit,
-                         direction_words(motion.displacement, y_up, lies));
+                         direction_words(motion.displacement, drawn_up, lies));
   } else {
     for (const Eigen::Vector3d& leg : motion.legs)
       out += fmt::format("{}{}{} {}", out.empty() ? "" : ", then ", figure_text(leg.norm()), of_unit,
-                         direction_words(leg, y_up, lies));
+                         direction_words(leg, drawn_up, lies));
   }
   if (motion.turn * 180 / std::numbers::pi < kTurned) return out.empty() ? "in its place" : out;
   const bool straight = motion.legs.size() == 1;
@@ -181,7 +182,7 @@ std::string motion_words(const MotionSummary& motion, const std::string& unit, b
   if (std::abs(along) > kOneAxis)
     return out + fmt::format(", turning {} by {}", along > 0 ? "clockwise" : "counter-clockwise", turn);
   const std::string about =
-      fmt::format("by {} clockwise about the axis that points {}", turn, direction_words(motion.axis, y_up, lies));
+      fmt::format("by {} clockwise about the axis that points {}", turn, direction_words(motion.axis, drawn_up, lies));
   return out.empty() ? "in its place, turning " + about : out + ", turning " + about;
 }
 

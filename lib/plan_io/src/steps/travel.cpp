@@ -201,11 +201,11 @@ std::string travel_words(const MotionSummary& motion, std::optional<double> guid
   MotionSummary shown = in_unit(motion, phrase.unit.factor);
   if (guided && is_straight(motion)) {
     if (stated_distance(motion, guided, phrase.size) == 0)
-      return direction_words(motion.legs.front(), phrase.y_up, lies) +
+      return direction_words(motion.legs.front(), phrase.up, lies) +
              (phrase.disassembly ? ", free at once" : ", until it seats");
     shown.legs.front() *= *guided / motion.legs.front().norm();
   }
-  return motion_words(shown, phrase.unit.name, phrase.y_up, lies);
+  return motion_words(shown, phrase.unit.name, phrase.up, lies);
 }
 
 }  // namespace dismantle

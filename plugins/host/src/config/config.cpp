@@ -13,6 +13,7 @@
 #include "config/layers.h"
 #include "config/sections.h"
 #include "config/stated_parts.h"
+#include "dismantle/geometry/direction.h"
 #include "dismantle/host/config_bind.h"
 
 namespace dismantle {
@@ -280,9 +281,17 @@ class Loader {
     }
   }
 
+  void check_up(const ConfigNode& layout) {
+    const ConfigMember* up = layout.find("up");
+    if (up == nullptr || !up->value.is_scalar() || up->value.scalar == "auto" || direction_named(up->value.scalar)) return;
+    problems_.push_back(up->value.mark.error(fmt::format("layout.up: '{}' is no direction; write auto, {}",
+                                                         up->value.scalar, kDirectionForms)));
+  }
+
   /// Reads `layout.poses`, a map from part names to poses, and returns the section with the plain parameters only.
   ConfigNode without_poses(const ConfigNode& layout) {
     ConfigNode rest = layout;
+    check_up(layout);
     const ConfigMember* poses = layout.find("poses");
     if (poses == nullptr) return rest;
     rest.erase("poses");

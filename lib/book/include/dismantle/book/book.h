@@ -31,14 +31,14 @@ DISMANTLE_API std::string book_pdf(const Plan& plan, const Assembly& assembly, c
 /// orange, also where it is hidden, with a ring around the place `at` (input coordinates). Places further from `marked`
 /// than its size may lie outside the picture. @throws std::out_of_range when the assembly has no such part.
 DISMANTLE_API std::string pair_png(const Assembly& assembly, PartId other, PartId marked, const Eigen::Vector3d& at,
-                                   bool y_up);
+                                   const Eigen::Vector3d& up);
 
 /// The functions above for programs that load the library on demand: linking pango and its dependencies would delay
 /// every start of the program by milliseconds.
 struct BookLibrary {
   std::string (*html)(const Plan&, const Assembly&, const BookOptions&);
   std::string (*pdf)(const Plan&, const Assembly&, const BookOptions&);
-  std::string (*pair_png)(const Assembly&, PartId, PartId, const Eigen::Vector3d&, bool);
+  std::string (*pair_png)(const Assembly&, PartId, PartId, const Eigen::Vector3d&, const Eigen::Vector3d&);
 };
 extern "C" DISMANTLE_API const BookLibrary* dismantle_book_library();
 

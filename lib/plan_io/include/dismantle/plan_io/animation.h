@@ -18,7 +18,7 @@ namespace dismantle {
 /// axes. Congruent parts share a surface.
 /// @throws InputError when the plan names a part that the assembly does not have, or a unit that is not known.
 DISMANTLE_API std::vector<std::uint8_t> to_glb(const Plan& plan, const Assembly& assembly, const InputFrame& frame);
-/// With input_frame(assembly).
+/// With input_frame(assembly), and the up of the plan if it was judged.
 DISMANTLE_API std::vector<std::uint8_t> to_glb(const Plan& plan, const Assembly& assembly);
 
 /// The parts as assembled, moved apart by exploded_offsets(); without animations. Otherwise as to_glb().

@@ -17,15 +17,18 @@ struct InputFrame {
   std::string unit;         ///< "mm", "inch"...
   bool unit_known = false;  ///< false: the files name none, and `unit` is the usual one of CAD, "mm" (of glTF: "m")
   double metres = 1e-3;     ///< per input unit, > 0
-  bool y_up = false;        ///< input from glTF; all else counts as Z up, as CAD has it
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit; Y for input from glTF; all else counts as Z up, as in CAD
   std::string shown{};      ///< unit in which texts state lengths; empty: the one that people use
 
-  Eigen::Vector3d up() const { return y_up ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ(); }
   /// Turns input axes to those of glTF.
   Eigen::Quaterniond to_y_up() const;
   /// How an assembly lies in a step that states its `up` (unit): turned from how it is drawn. None: not turned.
-  Eigen::Quaterniond lies(const std::optional<Eigen::Vector3d>& up) const;
+  Eigen::Quaterniond lies(const std::optional<Eigen::Vector3d>& way_up) const;
 };
+
+/// Turns the direction `up` (unit) to Z by the shortest way; -Z over the front, so that right stays right. In the turned
+/// frame right is X and back is Y.
+DISMANTLE_API Eigen::Quaterniond upright(const Eigen::Vector3d& up);
 
 /// Unit in which texts state lengths, and how many of it one input unit is.
 struct TextUnit {
@@ -48,5 +51,7 @@ DISMANTLE_API InputFrame shown_in(InputFrame frame, const std::string& unit);
 DISMANTLE_API InputFrame input_frame(const Assembly& assembly);
 /// Unit and up direction of the files that a plan is for.
 DISMANTLE_API InputFrame input_frame(const PlanAssembly& assembly);
+/// The same; up is how the assembly lies by the plan's objective, if it was judged by one.
+DISMANTLE_API InputFrame input_frame(const Plan& plan);
 
 }  // namespace dismantle

@@ -39,21 +39,24 @@ inline double leg_tolerance(double size) { return 0.01 * size; }
 /// Three significant digits, without an exponent for what people measure: "1270", "18.3", "0.05".
 DISMANTLE_API std::string figure_text(double x);
 
-/// "up (+Z)", "left and down (-0.71, 0, -0.71)": the axes of the assembly seen by someone who stands before it. `y_up`:
-/// the input has Y up and is seen from +Z; otherwise Z is up and it is seen from -Y. `direction` need not be a unit
-/// vector. `lies`: how the assembly is turned, from how it is drawn; the words are for the person, the axis that of the
+/// "+Z", "(-0.71, 0, -0.71)".
+DISMANTLE_API std::string axis_text(const Eigen::Vector3d& direction);
+
+/// "up (+Z)", "left and down (-0.71, 0, -0.71)": the axes of the assembly seen by someone who stands before it. `drawn_up`
+/// (unit) points up in drawings: with Z up it is seen from -Y, with Y up from +Z, see upright(). `direction` need not be
+/// a unit vector. `lies`: how the assembly is turned, from how it is drawn; the words are for the person, the axis that of the
 /// assembly.
 /// @throws Error for a direction without length.
-DISMANTLE_API std::string direction_words(const Eigen::Vector3d& direction, bool y_up,
+DISMANTLE_API std::string direction_words(const Eigen::Vector3d& direction, const Eigen::Vector3d& drawn_up,
                                           const Eigen::Quaterniond& lies = Eigen::Quaterniond::Identity());
 
 /// "upside down", "on its left side (+X up)": how an assembly lies whose direction `up` (unit) points upwards.
-DISMANTLE_API std::string lie_words(const Eigen::Vector3d& up, bool y_up);
+DISMANTLE_API std::string lie_words(const Eigen::Vector3d& up, const Eigen::Vector3d& drawn_up);
 
 /// "40 mm down (-Z), then 3 mm left (-X)", "15 mm down (-Z), turning clockwise by 5 turns": one phrase. All slides
 /// along three orthogonal axes are told, of other motions up to four legs. Clockwise is seen along the motion, or along
 /// the axis that is named. `unit` may be empty.
-DISMANTLE_API std::string motion_words(const MotionSummary& motion, const std::string& unit, bool y_up,
+DISMANTLE_API std::string motion_words(const MotionSummary& motion, const std::string& unit, const Eigen::Vector3d& drawn_up,
                                        const Eigen::Quaterniond& lies = Eigen::Quaterniond::Identity());
 
 }  // namespace dismantle

@@ -45,7 +45,7 @@ DISMANTLE_API double stated_distance(const MotionSummary& motion, std::optional<
 /// How a motion is told.
 struct MotionPhrase {
   TextUnit unit;             ///< of lengths
-  bool y_up = false;         ///< as in motion_words()
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< as `drawn_up` of motion_words()
   double size = 1;           ///< largest edge of the assembly, input units
   bool disassembly = false;  ///< the part leaves
 };
