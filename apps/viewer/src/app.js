@@ -9,7 +9,7 @@ const SEEN_THROUGH = 0.5;
 export class App {
   constructor(model) {
     this.model = model;
-    this.stage = this.parts = this.trails = this.places = null;
+    this.stage = this.parts = this.trails = this.places = this.section = this.measure = null;
     this.mode = 'disassembly';
     this.time = 0;
     this.playing = false;
@@ -296,6 +296,7 @@ export class App {
     }
     this.trails.lie(this.lies);
     this.places.lie(this.lies);
+    this.section?.lie(this.lies);
     this.stale = false;
     this.stage.invalidate(true);
   }

@@ -30,6 +30,12 @@ export function expose(app, display) {
       moving: [...app.moving].map(i => model.parts[i].name), held: [...app.held].map(i => model.parts[i].name)}),
     camera: () => ({position: app.stage.camera.position.toArray(), target: app.stage.controls.target.toArray()}),
     flying: () => app.stage.flight !== null,
+    measured: () => app.measure.result(),
+    section: () => ({axis: app.section.axis, share: app.section.share, flipped: app.section.flipped}),
+    cut: axis => app.cut(axis),
+    notesYaml: () => app.notes.yaml(),
+    /** Where a point of a part is on the screen, CSS pixels of the scene. */
+    onScreen: (name, point) => { now(); return app.stage.onScreen(app.parts.shownPoint(index(name), point).map((x, k) => x - model.origin[k])); },
     places: () => app.places.shown(),
     seek: time => app.seek(time),
     play: on => app.play(on),

@@ -4,16 +4,20 @@ import {readPage} from './data.js';
 import {expose} from './expose.js';
 import {Model} from './model.js';
 import {titleOf} from './plan/words.js';
+import {Measure} from './scene/measure.js';
 import {Parts} from './scene/parts.js';
-import {Places} from './scene/places.js';
 import {Picker} from './scene/picker.js';
+import {Places} from './scene/places.js';
+import {Section} from './scene/section.js';
 import {Stage} from './scene/stage.js';
 import {Trails} from './scene/trails.js';
 import {followAddress} from './ui/address.js';
 import {element} from './ui/dom.js';
 import {makeGizmo} from './ui/gizmo.js';
 import {makeHelp} from './ui/help.js';
+import {makeInspect} from './ui/inspect.js';
 import {listen} from './ui/keyboard.js';
+import {Notes} from './ui/notes.js';
 import {makeOverlay} from './ui/overlay.js';
 import {makePanel} from './ui/panel.js';
 import {Display, makeTools} from './ui/display.js';
@@ -51,6 +55,7 @@ function start() {
     return;
   }
   const app = new App(new Model(page)), display = new Display(app);
+  app.notes = new Notes(app);
   document.title = `${titleOf(page.plan)} · Dismantle`;
   const steps = page.plan.disassembly.length;
   app.speed = steps >= VERY_MANY ? 4 : steps >= MANY ? 2 : 1;
@@ -65,16 +70,18 @@ function start() {
     const parts = new Parts(app.model, stage.scene);
     app.show(stage, parts, new Trails(app.model, stage.scene), new Places(app.model, stage.scene));
     display.apply();
-    const picker = new Picker(stage, parts, {
+    const section = new Section(stage, parts), measure = new Measure(stage, parts);
+    Object.assign(app, {section, measure});
+    const picker = new Picker(stage, parts, section, {
       hover: (index, x, y) => { app.hover(index); overlay.hover(index, x, y); },
-      choose: index => app.select(index),
+      choose: hit => { if (measure.on) app.measureAt(hit); else app.select(hit ? hit.object.userData.index : -1); },
     });
     stage.renderer.domElement.addEventListener('dblclick', event => {
       const index = picker.partAt(event);
       if (index >= 0) stage.fit(parts.boxes(i => i === index), {margin: 2});
       else app.fit();
     });
-    scene.append(makeTools(app, display, () => help.showModal()), makeGizmo(app), ...overlay.nodes);
+    scene.append(makeTools(app, display, () => help.showModal()), makeGizmo(app), ...overlay.nodes, makeInspect(app, section, measure));
   }
   listen(app, display, help);
   followAddress(app);

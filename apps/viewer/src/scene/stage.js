@@ -142,6 +142,12 @@ export class Stage {
     return this.renderer.domElement.toDataURL('image/png');
   }
 
+  /** Where a point of the scene is, CSS pixels of the window. */
+  onScreen(point) {
+    const p = new THREE.Vector3(...point).project(this.camera), box = this.renderer.domElement.getBoundingClientRect();
+    return [box.left + (p.x + 1) * box.width / 2, box.top + (1 - p.y) * box.height / 2];
+  }
+
   /** `moved`: parts have moved, so shadows must be drawn again. */
   invalidate(moved = false) {
     this.dirty = true;

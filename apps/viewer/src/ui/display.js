@@ -78,6 +78,7 @@ export function makeTools(app, display, help) {
   const colours = iconButton('colours', '', () => display.nextColours());
   const up = iconButton('up', '', () => display.turnUp());
   const ground = iconButton('ground', '', () => display.ground());
+  const cut = iconButton('section', '', () => app.cut()), ruler = iconButton('measure', '', () => app.measuring());
   const theme = iconButton('theme', '', () => display.nextTheme());
   const show = iconButton('help', 'Keyboard and mouse (?)', help);
   const name = (button, title) => { button.title = title; button.setAttribute('aria-label', title.replace(/ \(.*\)$/, '')); };
@@ -92,9 +93,13 @@ export function makeTools(app, display, help) {
     name(colours, app.colours === 'given' ? 'Colours: of the parts (C)' : 'Colours: by order (C)');
     name(up, `Up is ${axisWords(display.up)} (U)`);
     name(ground, app.stage?.groundOn === false ? 'Shadow on the ground: off (G)' : 'Shadow on the ground: on (G)');
+    name(cut, app.section?.axis ? `Section across ${app.section.axis.toUpperCase()} (S)` : 'Section (S)');
+    cut.classList.toggle('on', Boolean(app.section?.axis));
+    name(ruler, 'Measure (M)');
+    ruler.classList.toggle('on', Boolean(app.measure?.on));
     name(theme, `Theme: ${display.theme} (L)`);
   };
   app.on(what => { if (what === 'display' || what === 'colours') refresh(); });
   refresh();
-  return element('nav.tools', {'aria-label': 'View'}, fit, follow, trails, fade, colours, ground, up, theme, show);
+  return element('nav.tools', {'aria-label': 'View'}, fit, follow, trails, fade, colours, cut, ruler, ground, up, theme, show);
 }

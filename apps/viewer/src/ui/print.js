@@ -11,6 +11,7 @@ export function printStep(app) {
   const {lies_words: lies} = app.model.about(app.mode, at);
   const sheet = element('section.sheet', {}, element('p', {}, `${titleOf(app.model.plan)} · ${app.mode === 'assembly' ? 'put together' : 'take apart'}`),
     element('h1', {}, `Step ${steps[at].step.step} of ${steps.length}: ${captionOf(app, at)}`), lies ? element('p', {}, `lies: ${lies}`) : null,
+    app.notes.of(steps[at].step) ? element('p.own', {}, app.notes.of(steps[at].step)) : null,
     app.stage ? element('img', {alt: '', src: app.stage.picture()}) : null, facts);
   document.body.append(sheet);
   const image = sheet.querySelector('img'), show = () => {

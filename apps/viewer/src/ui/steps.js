@@ -3,6 +3,7 @@ import {verdictRows, verdictsOf} from '../plan/checks.js';
 import {forcedWords, isBad, lengthWords, number, seconds, share} from '../plan/words.js';
 import {addressOfStep} from './address.js';
 import {element, icon, swatch} from './dom.js';
+import {makeNote} from './notes.js';
 import {printStep} from './print.js';
 
 let detailsOpen = false;  // for all steps alike
@@ -36,6 +37,7 @@ function facts(app, index) {
   return element('div.facts-of', {}, rows.length > 0 ? element('dl.facts', {}, rows) : null,
     element('div.chips', {}, element('a.chip', {href: here, title: 'The address of this step'}, icon('link'), here),
       element('button.chip', {type: 'button', title: 'Print this step (P)', onclick: () => printStep(app)}, icon('print'), 'Print')),
+    makeNote(app, step),
     element('details', {open: detailsOpen}, element('summary', {onclick: event => { detailsOpen = !event.currentTarget.parentElement.open; }}, 'Details'), element('dl.facts', {}, details)));
 }
 
@@ -69,6 +71,7 @@ export function makeSteps(app) {
         onclick: () => { app.goToStep(index); if (parts.length === 1) app.select(parts[0]); }},
         element('span.count', {}, String(step.step)), colours, names,
         app.model.held(app.mode, index).length > 0 ? element('span.pill.held', {}, 'hold') : null,
+        element('span.pill.noted', {title: 'You have a note on this step'}, 'note'),
         step.forced ? element(`span.pill${isBad(step) ? '.bad' : ''}`, {}, isBad(step) ? 'forced' : step.forced.accepted) : null);
       return element('li', {}, button);
     });
@@ -84,6 +87,7 @@ export function makeSteps(app) {
     }
     list.replaceChildren(...new Set(items.map((item, i) => runOf[i]?.node ?? item)));
     open = -1;
+    markNotes();
     mark();
   }
 
@@ -111,8 +115,10 @@ export function makeSteps(app) {
     if (top < box.scrollTop || top + item.offsetHeight > box.scrollTop + box.clientHeight) box.scrollTop = top - box.clientHeight / 3;
   }
 
+  const markNotes = () => items.forEach((item, i) => { item.querySelector('.noted').hidden = app.notes.of(app.line.steps[i].step) === ''; });
   app.on(what => {
     if (what === 'mode' || what === 'colours') make();
+    if (what === 'notes') markNotes();
     if (what === 'step') mark();
   });
   make();

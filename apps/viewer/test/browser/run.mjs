@@ -36,8 +36,8 @@ function onPage(title, file, body, options) {
     try {
       await body(page);
       assert.deepEqual(page.complaints, []);
-      assert.deepEqual(page.requests.filter(url => !url.startsWith('file://') && !url.startsWith('data:')), []);
-      assert.equal(page.requests.filter(url => url.startsWith('file://')).length, 1);
+      assert.deepEqual(page.requests.filter(url => !/^(file:\/\/|data:|blob:)/.test(url)), []);
+      assert.equal(new Set(page.requests.filter(url => url.startsWith('file://'))).size, 1);
     } finally {
       await page.close();
     }
@@ -390,6 +390,72 @@ onPage('the print of a step has its picture and its words, and nothing else', ()
   await page.emulateMedia({media: 'print'});
   assert.equal(await page.locator('.page').isVisible(), true, 'without a sheet the page itself is printed');
   await page.emulateMedia({media: null});
+});
+
+onPage('a section cuts parts open, and what is cut away is not picked', () => shelf.file, async page => {
+  const [lo, hi] = shelf.plan.assembly.bbox, middle = lo.map((x, k) => (x + hi[k]) / 2);
+  const hovered = async at => {
+    const names = shelf.plan.assembly.parts.map(p => p.name);
+    await page.mouse.click(...at);
+    return names.includes((await page.evaluate('window.dismantle.state()')).selected) ? (await page.evaluate('window.dismantle.state()')).selected : null;
+  };
+  await page.evaluate('window.dismantle.view("top")');
+  const outer = await page.evaluate(p => window.dismantle.onScreen(window.dismantle.partNames()[0], p), [middle[0], middle[1], hi[2]]);
+  const above = await hovered(outer);
+  assert.ok(above);
+  await page.keyboard.press('Escape');
+  for (const axis of ['x', 'y', 'z', null]) {
+    await page.keyboard.press('s');
+    assert.equal((await page.evaluate('window.dismantle.section()')).axis, axis);
+    if (axis !== 'z') continue;
+    const shown = await page.locator('.inspect .state').first().textContent();
+    assert.match(shown, new RegExp(`^Z = ${Number(((lo[2] + hi[2]) / 2).toPrecision(3))} `));
+    const below = await hovered(outer);
+    assert.ok(below && below !== above, 'the lid is cut away; something below it is selected');
+    await page.keyboard.press('Escape');
+  }
+  assert.equal(await hovered(outer), above);
+});
+
+onPage('two points are measured from corner to corner, and move with their parts', () => shelf.file, async page => {
+  const [[lo, hi], name] = await page.evaluate(() => {
+    const names = window.dismantle.partNames(), name = names.reduce((a, b) => window.dismantle.box(a)[1][2] > window.dismantle.box(b)[1][2] ? a : b);
+    window.dismantle.view('corner');
+    return [window.dismantle.box(name), name];
+  });
+  await page.keyboard.press('m');
+  const ends = [[lo[0], lo[1], hi[2]], [hi[0], lo[1], hi[2]]];
+  for (const [k, end] of ends.entries()) {
+    const [x, y] = await page.evaluate(([n, p]) => window.dismantle.onScreen(n, p), [name, end]);
+    await page.mouse.click(x + (k === 0 ? 5 : -5), y - 1);  // beside the corner, on the top
+  }
+  const {distance: length, along} = await page.evaluate('window.dismantle.measured()');
+  assert.ok(Math.abs(length - (hi[0] - lo[0])) < 1e-4 * length, `${length} is the length of the edge, ${hi[0] - lo[0]}`);
+  assert.ok(along[1] < 1e-4 * length && along[2] < 1e-4 * length);
+  assert.match(await page.locator('.inspect [role=status]').textContent(), new RegExp(`^${Number(length.toPrecision(3))} `));
+  await page.keyboard.press('End');
+  assert.ok(Math.abs((await page.evaluate('window.dismantle.measured()')).distance - length) < 1e-4 * length, 'a part is rigid');
+  await page.keyboard.press('Escape');
+  assert.equal(await page.evaluate('window.dismantle.measured()'), null);
+});
+
+onPage('notes on steps are kept, belong to the parts, and are written as YAML', () => shelf.file, async page => {
+  const part = shelf.plan.disassembly[0].moves[0].part, text = 'Grease: "thin"\nand wipe';
+  await page.keyboard.press('ArrowRight');
+  await page.locator('.steps li.open textarea').fill(text);
+  assert.equal((await page.evaluate('window.dismantle.state()')).step, 0, 'keys that are typed are no shortcuts');
+  assert.equal(await page.locator('.noted:visible').count(), 1);
+  assert.equal(await page.evaluate('window.dismantle.notesYaml()'), `notes:\n  - {parts: ["${part}"], text: ${JSON.stringify(text)}}\n`);
+  await page.reload();
+  await page.waitForFunction('window.dismantle?.drawn');
+  assert.match(await page.evaluate('window.dismantle.notesYaml()'), /Grease/);
+  await page.evaluate('window.dismantle.setMode("assembly")');
+  await page.keyboard.press('End');
+  assert.equal(await page.locator('.steps li.open textarea').inputValue(), text, 'put together, it is the same step');
+  const [saved] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', {name: 'Save the note'}).click()]);
+  assert.equal(saved.suggestedFilename(), 'notes.yaml');
+  await page.locator('.steps li.open textarea').fill('');
+  assert.equal(await page.evaluate('window.dismantle.notesYaml()'), 'notes: []\n');
 });
 
 onPage('help, theme, up axis, fading, paths', () => shelf.file, async page => {
