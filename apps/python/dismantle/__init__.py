@@ -10,7 +10,7 @@ assembly units, in which the largest edge of the assembly is 10 (see Assembly).
 """
 from ._core import (Answer, Assembly, Capabilities, Certificate, Contacts, Forced, Objective, ObjectiveItem, Oracle, Outcome, Overlap, Part,
                     PathCheck, PathQuery, PathResult, Plan, RunContext, Simulator, Step, StepNote, StepOverlap, StepQuestion, StepReport,
-                    Unsolved, Verdict, Verification, World, __version__, interpolate, load_plugin, plugin_problems, samples)
+                    Unsolved, Verdict, Verification, World, Worlds, __version__, interpolate, load_plugin, plugin_problems, samples)
 from ._bench import bench, read_results
 from ._errors import ConfigError, Diagnostic, Error, InputError, PluginError
 from ._planners import (Parameter, PathPlanner, SequencePlanner, StepCheck, StepVerdict, path_planner, sequence_planner,
@@ -23,7 +23,7 @@ __all__ = [
     "InputError", "Objective", "ObjectiveItem", "Oracle", "Outcome", "Overlap", "Parameter", "Part", "PathCheck",
     "PathPlanner", "PathQuery", "PathResult", "Plan", "PluginError", "RunContext", "SequencePlanner", "Simulator",
     "Step", "StepCheck", "StepNote", "StepOverlap", "StepQuestion", "StepReport", "StepVerdict", "Unsolved", "Verdict",
-    "Verification", "World", "bench", "compose", "describe", "interpolate", "inverse", "load_plugin", "matrix",
+    "Verification", "World", "Worlds", "bench", "compose", "describe", "interpolate", "inverse", "load_plugin", "matrix",
     "path_planner", "plugin_problems", "plugins", "pose_of_matrix", "read_results", "resolved_config", "run", "samples",
     "sequence_planner", "step_check", "transform", "verify",
 ]

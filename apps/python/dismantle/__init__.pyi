@@ -421,6 +421,24 @@ class World:
     @property
     def fixed(self) -> list[str]: ...
 
+class Worlds:
+    def __len__(self) -> int: ...
+    def step(self, wrenches: npt.ArrayLike, duration: float = 0.1, in_body_frame: bool = False) -> dict[str, _Array]: ...  # (N, 6) or (N, M, 6)
+    def reset(self, which: Optional[Iterable[int]] = None) -> None: ...
+    def set_state(self, world: int, state: npt.ArrayLike) -> None: ...
+    @property
+    def states(self) -> _Array: ...  # (N, M, 13)
+    @property
+    def displacements(self) -> _Array: ...  # (N, M, 3)
+    @property
+    def mean_normals(self) -> _Array: ...  # (N, M, 3)
+    @property
+    def penetrations(self) -> _Array: ...  # (N,)
+    @property
+    def separated(self) -> _Array: ...  # (N,)
+    def radius(self, body: int = 0) -> float: ...
+    def torque_arm(self, body: int = 0) -> float: ...
+
 class Simulator:
     def __init__(self, id: str = "sdf_penalty", parameters: Mapping[str, Any] = {}) -> None: ...
     @property
@@ -429,6 +447,8 @@ class Simulator:
     def capabilities(self) -> Capabilities: ...
     def world(self, assembly: Assembly, moving: _Parts, fixed: Optional[_Parts] = None, space: str = "rigid",
               tolerance: float = 0.01) -> World: ...
+    def worlds(self, assembly: Assembly, moving: _Parts, count: int, fixed: Optional[_Parts] = None, space: str = "rigid",
+               tolerance: float = 0.01, threads: int = 1) -> Worlds: ...
 
 class PathCheck:
     @property

@@ -30,6 +30,7 @@ void bind_run(py::module_& m);
 void bind_plugins(py::module_& m);
 void bind_simulator(py::module_& m);
 void bind_world(py::module_& m);
+void bind_worlds(py::module_& m);
 void bind_path_planner(py::module_& m);
 void bind_sequence_planner(py::module_& m);
 void bind_step_check(py::module_& m);

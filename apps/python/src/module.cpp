@@ -13,6 +13,7 @@ PYBIND11_MODULE(_core, m) {
   bind_plugins(m);
   bind_run(m);
   bind_world(m);
+  bind_worlds(m);
   bind_simulator(m);
   bind_path_planner(m);
   bind_sequence_planner(m);

@@ -11,6 +11,7 @@
 #include "dismantle/errors.h"
 #include "interruptible.h"
 #include "world.h"
+#include "worlds.h"
 
 namespace dismantle::python {
 namespace {
@@ -45,6 +46,25 @@ class HeldSimulator {
 
   std::shared_ptr<HeldWorld> world(const HeldAssembly& loaded, const py::object& moving, const py::object& fixed,
                                    const std::string& space, double tolerance) {
+    return made<HeldWorld>(loaded, moving, fixed, space, tolerance, [&](auto make) {
+      return std::make_shared<HeldWorld>(loaded.assembly, std::move(make), nullptr);
+    });
+  }
+
+  std::shared_ptr<HeldWorlds> worlds(const HeldAssembly& loaded, const py::object& moving, std::size_t count,
+                                     const py::object& fixed, const std::string& space, double tolerance,
+                                     unsigned threads) {
+    if (count < 1 || threads < 1) throw py::value_error("count, threads: expected a number >= 1");
+    return made<HeldWorlds>(loaded, moving, fixed, space, tolerance, [&](auto make) {
+      return std::make_shared<HeldWorlds>(std::move(make), count, threads);
+    });
+  }
+
+ private:
+  /// Result of `build(make)`, where make() makes worlds of the scene.
+  template <class Result, class Build>
+  std::shared_ptr<Result> made(const HeldAssembly& loaded, const py::object& moving, const py::object& fixed,
+                               const std::string& space, double tolerance, Build build) {
     if (!(tolerance > 0)) throw py::value_error("tolerance: expected a number > 0, assembly units");
     const MotionSpace motion = motion_space(space);
     const Assembly& assembly = *loaded.assembly;
@@ -72,11 +92,10 @@ class HeldSimulator {
       const auto make = [registry = registry_, simulator = simulator_, kept = loaded.assembly,
                          prepared = prepare(loaded.assembly, tolerance, cancel), scene,
                          motion] { return simulator->world(*kept, *prepared, scene, motion); };
-      return std::make_shared<HeldWorld>(loaded.assembly, make, nullptr);
+      return build(make);
     });
   }
 
- private:
   static void check_once(const Scene& scene, const Assembly& assembly) {
     std::vector<bool> seen(assembly.parts.size());
     for (const auto* parts : {&scene.moving, &scene.fixed})
@@ -127,7 +146,10 @@ void bind_simulator(py::module_& m) {
            "Makes a World. moving, fixed: names or numbers of parts; fixed None: all that do not move. space: 'rigid' "
            "or "
            "'translation' (orientation is locked). tolerance: penetration that the verifier lets pass, assembly units, "
-           "> 0.");
+           "> 0.")
+      .def("worlds", &HeldSimulator::worlds, py::arg("assembly"), py::arg("moving"), py::arg("count"),
+           py::arg("fixed") = py::none(), py::arg("space") = "rigid", py::arg("tolerance") = kDefaultTolerance,
+           py::arg("threads") = 1, "Makes `count` equal worlds that are stepped together, on so many threads: Worlds.");
 }
 
 }  // namespace dismantle::python

@@ -10,9 +10,6 @@
 namespace dismantle::python {
 namespace {
 
-/// Numbers per body: position (3), quaternion (4), velocity (3), angular velocity (3).
-constexpr std::size_t kStateColumns = 13;
-
 [[noreturn]] void closed() { throw Error("this world belongs to a query that is over"); }
 
 }  // namespace
@@ -21,6 +18,35 @@ MotionSpace motion_space(const std::string& text) {
   if (text == "rigid") return MotionSpace::rigid;
   if (text == "translation") return MotionSpace::translation;
   throw py::value_error("space: expected 'rigid' or 'translation', got '" + text + "'");
+}
+
+double* write_state(const BodyState& body, double* to) {
+  const Pose& pose = body.pose;
+  to = std::copy_n(pose.t.data(), 3, to);
+  *to++ = pose.q.w();
+  to = std::copy_n(pose.q.vec().data(), 3, to);
+  to = std::copy_n(body.velocity.data(), 3, to);
+  return std::copy_n(body.angular_velocity.data(), 3, to);
+}
+
+State state_of(const Array& rows, std::size_t bodies) {
+  const bool flat = bodies == 1 && rows.ndim() == 1 && rows.size() == static_cast<py::ssize_t>(kStateColumns);
+  if (!flat && (rows.ndim() != 2 || static_cast<std::size_t>(rows.shape(0)) != bodies ||
+                static_cast<std::size_t>(rows.shape(1)) != kStateColumns))
+    throw py::value_error(fmt::format("state: expected an array of shape ({}, 13)", bodies));
+  State state;
+  for (std::size_t i = 0; i < bodies; ++i) {
+    const double* row = rows.data() + kStateColumns * i;
+    Array pose(7);
+    std::copy_n(row, 7, pose.mutable_data());
+    BodyState& body = state.bodies.emplace_back();
+    body.pose = pose_of(pose, "state");
+    body.velocity = {row[7], row[8], row[9]};
+    body.angular_velocity = {row[10], row[11], row[12]};
+    if (!body.velocity.allFinite() || !body.angular_velocity.allFinite())
+      throw py::value_error("state: a velocity is not finite");
+  }
+  return state;
 }
 
 HeldWorld::HeldWorld(std::shared_ptr<const Assembly> assembly, Make make, std::shared_ptr<Work> work)
@@ -70,35 +96,12 @@ void HeldWorld::begin_anew(State state) {
 
 Array HeldWorld::state_rows() const {
   Array out({bodies_, kStateColumns});
-  for (std::size_t i = 0; i < bodies_; ++i) {
-    const BodyState& body = state_.bodies[i];
-    const Array pose = array_of(body.pose);
-    double* row = out.mutable_data() + kStateColumns * i;
-    std::copy_n(pose.data(), 7, row);
-    for (int k = 0; k < 3; ++k) row[7 + k] = body.velocity[k], row[10 + k] = body.angular_velocity[k];
-  }
+  double* to = out.mutable_data();
+  for (const BodyState& body : state_.bodies) to = write_state(body, to);
   return out;
 }
 
-void HeldWorld::set_state(const Array& rows) {
-  const bool flat = bodies_ == 1 && rows.ndim() == 1 && rows.size() == static_cast<py::ssize_t>(kStateColumns);
-  if (!flat && (rows.ndim() != 2 || static_cast<std::size_t>(rows.shape(0)) != bodies_ ||
-                static_cast<std::size_t>(rows.shape(1)) != kStateColumns))
-    throw py::value_error(fmt::format("state: expected an array of shape ({}, 13)", bodies_));
-  State state;
-  for (std::size_t i = 0; i < bodies_; ++i) {
-    const double* row = rows.data() + kStateColumns * i;
-    Array pose(7);
-    std::copy_n(row, 7, pose.mutable_data());
-    BodyState& body = state.bodies.emplace_back();
-    body.pose = pose_of(pose, "state");
-    body.velocity = {row[7], row[8], row[9]};
-    body.angular_velocity = {row[10], row[11], row[12]};
-    if (!body.velocity.allFinite() || !body.angular_velocity.allFinite())
-      throw py::value_error("state: a velocity is not finite");
-  }
-  begin_anew(std::move(state));
-}
+void HeldWorld::set_state(const Array& rows) { begin_anew(state_of(rows, bodies_)); }
 
 State HeldWorld::state_at(const py::object& poses) const {
   if (poses.is_none()) return state_;

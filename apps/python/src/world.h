@@ -85,6 +85,13 @@ class HeldWorld {
   std::mutex mutex_;
 };
 
+/// Numbers per body of a state: position (3), quaternion (4), velocity (3), angular velocity (3).
+inline constexpr std::size_t kStateColumns = 13;
+/// Writes the numbers of `body` to `to`; returns where the next ones go.
+double* write_state(const BodyState& body, double* to);
+/// The state of rows (M, 13), or (13,) for one moving part. @throws ValueError.
+State state_of(const Array& rows, std::size_t bodies);
+
 /// "translation" or "rigid". @throws ValueError.
 MotionSpace motion_space(const std::string& text);
 

@@ -5,6 +5,8 @@ import sys
 import numpy as np
 import pytest
 
+import dismantle
+
 
 @pytest.fixture(scope="module")
 def gym_env(source):
@@ -42,6 +44,36 @@ def test_a_good_policy_is_rewarded(gym_env, peg):
     rewards, _, out = gym_env.run_episode(env, lambda _: np.array([0, 0, 1, 0, 0, 0]), 1)
     idle, _, stayed = gym_env.run_episode(env, lambda _: np.zeros(6), 1)
     assert out and not stayed and rewards.sum() > 10 > idle.sum()
+
+
+def test_many_environments_do_what_each_would_do_alone(gym_env, peg):
+    many = gym_env.VectorDisassemblyEnv(peg, "peg", 2, max_steps=3, threads=2)
+    alone = gym_env.DisassemblyEnv(peg, "peg", max_steps=3)
+    observations, _ = many.reset(seed=1)
+    assert observations.shape == (2, 16) and many.action_space.sample().shape == (2, 6)
+    actions = np.random.default_rng(1).uniform(-1, 1, (8, 2, 6))
+    told = [many.step(a) for a in actions]
+    for n in range(2):
+        assert np.array_equal(observations[n], alone.reset()[0])
+        begins = False
+        for k in range(8):
+            observation, reward, out, truncated, _ = (*alone.reset(), False, False, {}) if begins else alone.step(actions[k, n])
+            reward = 0.0 if begins else reward
+            assert np.array_equal(told[k][0][n], observation) and told[k][1][n] == reward
+            assert (told[k][2][n], told[k][3][n]) == ((False, False) if begins else (out, truncated))
+            begins = not begins and (out or truncated)
+
+
+def test_the_fast_simulator_of_the_environment_keeps_the_tolerance_of_the_verifier(gym_env, peg):
+    env = gym_env.DisassemblyEnv(peg, "peg")
+    exact = dismantle.Simulator("sdf_penalty", {"contact_spacing": 0.05}).world(peg, "peg")
+    env.reset(seed=1)
+    deepest = steps = 0
+    for _ in range(30):
+        info = env.step(env.action_space.sample())[4]
+        steps = max(steps, info["simulated_steps"])
+        deepest = max(deepest, exact.penetration(env.task.worlds.states[0, :, :7]))
+    assert deepest < 0.01 and steps <= 12
 
 
 def test_it_runs_as_a_program(source):

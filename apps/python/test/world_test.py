@@ -157,3 +157,46 @@ def test_bad_arguments_are_named(peg):
     assert not geometry.capabilities.dynamics and geometry.capabilities.distance
     with pytest.raises(Exception, match=".+"):
         geometry.world(peg, "peg").step(np.zeros(6))
+
+
+def test_worlds_do_what_each_would_do_alone_on_any_number_of_threads(peg):
+    simulator = dismantle.Simulator("sdf_penalty", {"contact_spacing": 1.0})
+    many = [simulator.worlds(peg, "peg", 3, threads=n) for n in (1, 2)]
+    alone = [simulator.world(peg, "peg") for _ in range(3)]
+    rng = np.random.default_rng(1)
+    for k in range(6):
+        if k == 3:
+            for worlds in many:
+                worlds.reset([1])
+            alone[1].reset()
+        if k == 4:
+            for worlds in many:
+                worlds.set_state(2, alone[0].state)
+            alone[2].state = alone[0].state
+        wrenches = 100 * rng.uniform(-1, 1, (3, 6))
+        reports = [world.step(wrench, 0.05) for world, wrench in zip(alone, wrenches)]
+        for worlds in many:
+            told = worlds.step(wrenches, 0.05)
+            assert told["steps"].tolist() == [r.steps for r in reports] and told["travel"].tolist() == [r.travel for r in reports]
+            assert worlds.states.tobytes() == np.stack([world.state for world in alone]).tobytes()
+            assert worlds.separated.tolist() == [world.separated() for world in alone]
+            assert worlds.penetrations.tolist() == [world.penetration() for world in alone]
+            for world, normal, way in zip(alone, worlds.mean_normals[:, 0], worlds.displacements[:, 0]):
+                normals = world.contacts().normals
+                assert np.allclose(normal, normals.mean(axis=0) if len(normals) else 0)
+                centre = world.center()
+                assert np.allclose(way, dismantle.transform(world.poses[0], centre[None])[0] - centre)
+
+
+def test_worlds_say_what_is_wrong_with_a_call(peg):
+    simulator = dismantle.Simulator()
+    worlds = simulator.worlds(peg, "peg", 2)
+    assert len(worlds) == 2
+    with pytest.raises(ValueError, match=r"shape \(2, 6\)"):
+        worlds.step(np.zeros(6))
+    with pytest.raises(ValueError, match="not finite"):
+        worlds.step(np.full((2, 6), np.nan))
+    with pytest.raises(IndexError, match="no world 2"):
+        worlds.reset([2])
+    with pytest.raises(ValueError, match="count"):
+        simulator.worlds(peg, "peg", 0)
