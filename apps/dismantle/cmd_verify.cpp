@@ -13,15 +13,26 @@ namespace dismantle::app {
 namespace {
 
 struct Verify {
-  std::string plan, assembly;
+  std::string plan, assembly, config;
   double effort = 1;
   ConsoleOptions console;
 };
 
+/// A reader that also finds the plugins of a configuration.
+Session reader_of(const std::string& config, Console& console) {
+  const auto plugins = std::make_shared<Registry>();
+  ConfigSource source;
+  source.file = config;
+  if (!config.empty()) load_config(source, *plugins);
+  Session session = Session::reader(plugins);
+  warn_of_problems(session.registry(), console);
+  return session;
+}
+
 int verify(const Verify& options) {
   Console console(options.console);
   if (is_stability_file(options.plan)) return verify_stability(options.plan, options.assembly, console);
-  const Session session = reader(console);
+  const Session session = reader_of(options.config, console);
   RunContext context = context_of(session, console);
   const auto [plan, assembly] =
       stoppable(context, [&] { return session.load_plan(options.plan, options.assembly, context); });
@@ -59,6 +70,10 @@ void add_verify(CLI::App& app, Action& action) {
   command->add_option("PLAN.json", options->plan, "Plan file, or stability.json")->required()->option_text(" ");
   command->add_option("--assembly", options->assembly, "The input that the plan is for, if it has moved")
       ->option_text("INPUT");
+  command
+      ->add_option("-c,--config", options->config,
+                   "Configuration whose plugins.search_paths have the checkers of third parties' proofs and verdicts")
+      ->option_text("CONFIG.yaml");
   command
       ->add_option("--effort", options->effort,
                    "Multiplies the tests and patches that each proof may take: for plans that were made with more")

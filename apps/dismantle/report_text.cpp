@@ -32,7 +32,8 @@ std::string check_text(const Plan& plan, const PlanCheck& check) {
   for (const auto& p : check.problems)
     out += p.step == 0 ? fmt::format("problem: {}\n", p.message)
                        : fmt::format("problem in step {}: {}\n", p.step, p.message);
-  for (const auto& text : check.not_checked) out += fmt::format("not checked here: the verdicts of {}\n", text);
+  for (const auto& text : check.not_checked)
+    out += fmt::format("not checked here: {}{}\n", text.starts_with('\'') ? "the verdicts of " : "", text);
   if (!check.valid) return out + "The plan is NOT VALID.\n";
   if (check.verdicts > 0)
     out += fmt::format("{} of step checks: judged again, with the same result.\n",

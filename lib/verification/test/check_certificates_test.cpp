@@ -106,7 +106,6 @@ TEST_F(CheckCertificates, ForgedOnesDoNot) {
        [](PlanCertificate& c) {
          c.parts = {"part0", "part1", "part2"};
        }},
-      {"no immobility prover 'rumour'", [](PlanCertificate& c) { c.kind = "rumour"; }},
       {"'width' is not that of the proof",
        [](PlanCertificate& c) {
          c.numbers["width"] = {3, 5};
@@ -130,9 +129,22 @@ TEST_F(CheckCertificates, ForgedOnesDoNot) {
   }
 }
 
-TEST_F(CheckCertificates, NoneHoldsWithoutItsProver) {
+/// Whoever has no checker of a third party's proofs cannot say that they are wrong, or that they hold.
+TEST_F(CheckCertificates, OneWithoutItsProverIsNotChecked) {
+  plan_.certificates.push_back(plan_.certificates[0]);
+  plan_.certificates[1].kind = "rumour";
+  PlanCheck c = check();
+  EXPECT_TRUE(c.valid);
+  EXPECT_EQ(c.certificates, 1u);
+  EXPECT_EQ(c.checked_by_prover, 1u);
+  ASSERT_EQ(c.not_checked.size(), 1u);
+  EXPECT_NE(c.not_checked[0].find("certificate 1: there is no immobility prover 'rumour'"), std::string::npos);
   RunContext context;
-  EXPECT_FALSE(check_plan(plan_, assembly_, VerifyOptions{}, context).valid);
+  c = check_plan(plan_, assembly_, VerifyOptions{}, context);
+  EXPECT_EQ(c.certificates, 0u);
+  EXPECT_EQ(c.not_checked.size(), 2u);
+  plan_.certificates[1].parts = {"part0", "part7"};
+  expect_problem("is not in the assembly");
 }
 
 TEST_F(CheckCertificates, PartsStandWhereThePlanHasThemAtSomeTime) {

@@ -32,7 +32,12 @@ class CertificateCheck {
           std::shared_ptr<const std::vector<geometry::Solid>>(std::shared_ptr<void>(), &verifier.solids(part.id)));
   }
 
-  /// Returns what is wrong with the certificate; empty when it holds.
+  /// Is there a checker or a prover for certificates of this kind?
+  bool can_check(const std::string& kind) const {
+    return certificates::checker_of(kind) != nullptr || prover_of(kind) != nullptr;
+  }
+
+  /// Returns what is wrong with the certificate; empty when it holds, or when nothing can check it.
   std::string problem_of(const PlanCertificate& written) {
     Certificate certificate{written.kind, {}, {}, written.full_tolerance, written.margin, written.numbers, {}};
     for (const auto& name : written.parts) {
@@ -54,9 +59,8 @@ class CertificateCheck {
                          tolerance_,
                          written.full_tolerance ? "that it holds for the" : "that it does not hold for the");
     const certificates::Checker* checker = certificates::checker_of(written.kind);
-    const auto prover = checker == nullptr && prover_of_ ? prover_of_(written.kind) : nullptr;
-    if (checker == nullptr && !prover)
-      return fmt::format("there is no immobility prover '{}' to check it", written.kind);
+    const auto prover = checker == nullptr ? prover_of(written.kind) : nullptr;
+    if (checker == nullptr && !prover) return {};  // can_check() says so
     for (const Pose& pose : written.poses)
       certificate.poses.push_back(assembly_.normalization.pose_to_internal({pose.t, pose.q.normalized()}));
     const ProverTraits traits = checker != nullptr ? checker->traits : prover->traits();
@@ -76,6 +80,10 @@ class CertificateCheck {
   }
 
  private:
+  std::shared_ptr<const ImmobilityProver> prover_of(const std::string& kind) const {
+    return prover_of_ ? prover_of_(kind) : nullptr;
+  }
+
   /// True if its parts are, at some time of the plan, at the certificate's poses.
   bool ever_there(const Certificate& certificate) const {
     std::vector<Pose> places(certificate.parts.size());
@@ -110,14 +118,22 @@ class CertificateCheck {
 
 }  // namespace
 
-std::vector<std::string> problems_of_certificates(const Plan& plan, const Assembly& assembly, const Verifier& verifier,
-                                                  const PlanState& state, const std::vector<StepMotion>& motions,
-                                                  const ProverOfKind& prover_of, const RunContext& context) {
-  std::vector<std::string> problems;
+CertificateFindings check_certificates_of(const Plan& plan, const Assembly& assembly, const Verifier& verifier,
+                                          const PlanState& state, const std::vector<StepMotion>& motions,
+                                          const ProverOfKind& prover_of, const RunContext& context) {
+  CertificateFindings found;
+  std::vector<std::string>& problems = found.problems;
   CertificateCheck check(plan, assembly, verifier, state, motions, prover_of, context);
-  for (std::size_t i = 0; i < plan.certificates.size() && !context.should_stop(); ++i)
+  for (std::size_t i = 0; i < plan.certificates.size() && !context.should_stop(); ++i) {
+    const std::string& kind = plan.certificates[i].kind;
     if (const std::string problem = check.problem_of(plan.certificates[i]); !problem.empty())
-      problems.push_back(fmt::format("certificate {} ({}) does not hold: {}", i, plan.certificates[i].kind, problem));
+      problems.push_back(fmt::format("certificate {} ({}) does not hold: {}", i, kind, problem));
+    else if (!check.can_check(kind))
+      found.not_checked.push_back(
+          fmt::format("certificate {}: there is no immobility prover '{}' to check it: name the folder of its plugin in "
+                      "DISMANTLE_PLUGIN_PATH, or in plugins.search_paths of a configuration",
+                      i, kind));
+  }
   for (const PlanUnsolved& u : plan.unsolved) {
     const PlanCertificate* certificate =
         u.certificate && *u.certificate < plan.certificates.size() ? &plan.certificates[*u.certificate] : nullptr;
@@ -130,7 +146,7 @@ std::vector<std::string> problems_of_certificates(const Plan& plan, const Assemb
       problems.push_back(
           fmt::format("unsolved '{}' is called infeasible without a certificate for the full tolerance", u.part));
   }
-  return problems;
+  return found;
 }
 
 }  // namespace dismantle

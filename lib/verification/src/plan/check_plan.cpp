@@ -216,14 +216,17 @@ class Checker {
 
   void check_certificates() {
     if (stopped()) return;
-    const auto wrong = problems_of_certificates(plan_, assembly_, verifier_, state_, motions_, prover_of_, context_);
-    if (wrong.empty()) {
-      result_.certificates = plan_.certificates.size();
-      result_.checked_by_prover = static_cast<std::size_t>(
+    const auto found = check_certificates_of(plan_, assembly_, verifier_, state_, motions_, prover_of_, context_);
+    if (found.problems.empty()) {
+      const std::size_t unknown = found.not_checked.size();
+      const auto by_provers =
           std::count_if(plan_.certificates.begin(), plan_.certificates.end(),
-                        [](const PlanCertificate& c) { return certificates::checker_of(c.kind) == nullptr; }));
+                        [](const PlanCertificate& c) { return certificates::checker_of(c.kind) == nullptr; });
+      result_.certificates = plan_.certificates.size() - unknown;
+      result_.checked_by_prover = static_cast<std::size_t>(by_provers) - unknown;
     }
-    for (const auto& text : wrong) problem(text);
+    for (const auto& text : found.problems) problem(text);
+    result_.not_checked.insert(result_.not_checked.end(), found.not_checked.begin(), found.not_checked.end());
   }
 
   /// Distance within which two poses count as equal, assembly units. Covers the rounding of numbers written with twelve

@@ -34,15 +34,15 @@ struct PlanCheck {
   std::vector<double> step_penetration;
   std::vector<double> forced_depth{};  ///< by step: as measured, assembly units; 0 for steps that are not forced
   std::size_t verdicts = 0;  ///< of step checks, judged again by judge_again() (dismantle/engine/judgement.h)
-  std::vector<std::string> not_checked{};  ///< by judge_again(): "'acme.x': ...": a step check that is not available
+  std::vector<std::string> not_checked{};  ///< "'acme.x': ...": step checks and certificates whose plugin is not available
   std::vector<PlanProblem> problems;
 };
 
 /// Returns the prover that makes certificates of a kind, or nullptr if there is none.
 using ProverOfKind = std::function<std::shared_ptr<const ImmobilityProver>(const std::string& kind)>;
 
-/// A certificate is checked by the independent checker of its kind (check_certificate.h), else by the prover of its
-/// kind. A certificate that neither can check does not hold.
+/// A certificate is checked by the independent checker of its kind, else by the prover of its kind. One that neither
+/// can check is in PlanCheck::not_checked; whether it holds is not known.
 DISMANTLE_API PlanCheck check_plan(const Plan& plan, const Assembly& assembly, const VerifyOptions& options,
                                    RunContext& context, const ProverOfKind& prover_of = {});
 
