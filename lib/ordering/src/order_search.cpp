@@ -44,6 +44,7 @@ bool fits(const Task& task, const UnitSet& leaving, const UnitSet& left) {
 UnitSet candidates(const Task& task, const UnitSet& left) {
   UnitSet units = left;
   if (task.end == End::target) units &= task.bound->useful();
+  if (task.end == End::exactly) units -= task.goal;
   return units;
 }
 
@@ -104,8 +105,7 @@ double lower_bound(Problem& problem, const Task& task, const UnitSet& left, Vari
   std::vector<std::uint64_t> classes;
   std::size_t may_stay = task.end == End::one_left ? 1 : 0;
   const double change = problem.change();
-  left.each([&](std::size_t u) {
-    if (task.end == End::exactly && task.goal.contains(u)) return;
+  candidates(task, left).each([&](std::size_t u) {
     if (!problem.leaves_alone(u)) return;
     double least = kForbidden;
     std::uint64_t own = 0;
