@@ -321,7 +321,7 @@ std::vector<Fastening> fastenings_of(const Assembly& assembly, std::span<const S
       screws.size(), context,
       [&](std::size_t i) { out[i] = Screw(assembly, shapes, surface, screws[i], mm).fastening(); },
       [&] { return context.should_stop(); });
-  stop_if_asked(context, "what screws clamp");
+  stop_if_asked(context, "finding what screws clamp");
   find_only(assembly, out);
   return out;
 }

@@ -128,7 +128,7 @@ std::vector<Shape> shapes_of(const Assembly& assembly, const RunContext& context
       found[k] = recognise_shape(*part.mesh, mm);
   };
   parallel_for(originals.size(), context, look, [&] { return context.should_stop(); });
-  stop_if_asked(context, "kinds of parts");
+  stop_if_asked(context, "recognising kinds of parts");
   std::vector<Shape> out;
   for (std::size_t i = 0; i < placements.size(); ++i) {
     const auto at = std::lower_bound(originals.begin(), originals.end(), placements[i].original) - originals.begin();
