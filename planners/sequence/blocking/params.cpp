@@ -7,6 +7,10 @@ void BlockingParams::describe(Schema<BlockingParams>& s) {
   s.add("straight", &BlockingParams::straight,
         {.doc = "Remove parts along straight lines where nothing blocks them (strategies target_first, "
                 "free_part). Off: free_group, rotation_in_place and simultaneous_motion are off, too."});
+  s.add("upwards", &BlockingParams::upwards,
+        {.doc = "Parts that can leave straight up (layout.up) leave first, then parts and groups that can leave "
+                "sideways, and at last what leaves downwards. The reverse puts the base down first, and what is on it "
+                "from above."});
   s.add("groups", &BlockingParams::groups,
         {.doc = "Strategy free_group: when no single part is free, remove the smallest free group and "
                 "disassemble it separately."});

@@ -13,6 +13,9 @@ namespace blocking {
 /// Straight removals: free_part, target_first, and the pairwise relations that other strategies use.
 struct StraightParams {
   bool straight = true;
+  /// Parts that leave straight up go first, then parts and groups that leave sideways, at last what leaves downwards:
+  /// the base stays to the end.
+  bool upwards = false;
 };
 
 struct FreeGroupParams {

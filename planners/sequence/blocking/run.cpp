@@ -39,6 +39,12 @@ Run::Run(const BlockingParams& params, const SequenceQuery& query, PathOracle& o
 void Run::make_strategies() {
   if (straight_) {
     list_.add(std::make_unique<TargetFirst>(state_, *straight_));
+    if (params_.upwards) {
+      list_.add(std::make_unique<FreePart>(state_, *straight_, Course::up));
+      list_.add(std::make_unique<FreePart>(state_, *straight_, Course::not_down));
+      if (params_.groups)
+        list_.add(std::make_unique<FreeGroup>(state_, *straight_, params_.group_proposals, Course::not_down));
+    }
     list_.add(std::make_unique<FreePart>(state_, *straight_));
     if (params_.groups) list_.add(std::make_unique<FreeGroup>(state_, *straight_, params_.group_proposals));
   }

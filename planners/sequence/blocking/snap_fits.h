@@ -33,7 +33,9 @@ class SnapFits {
   /// The deepest place of the motion that cuts in least, of those that were measured; nullopt: not held by a snap fit.
   std::optional<MotionDepth> holding(const GroupState& group, SubassemblyId id);
   /// Whether to search no deeper: it is held so, and enough deep searches of parts that are held so found nothing.
-  bool is_snap_fit(const GroupState& group, SubassemblyId id) { return has_evidence() && holding(group, id).has_value(); }
+  bool is_snap_fit(const GroupState& group, SubassemblyId id) {
+    return has_evidence() && holding(group, id).has_value();
+  }
   /// Records a search: what searches of at least `snap_depth` for parts that are held so find, decides for the others.
   void searched(const GroupState& group, SubassemblyId id, unsigned depth, bool found);
 

@@ -16,6 +16,7 @@ bool GroupState::contains(SubassemblyId member) const { return holds(members, me
 DisassemblyState::DisassemblyState(const SequenceQuery& query, const InseparablePairs& inseparable, PartOrder order,
                                    SequenceObserver& observer, RunContext& context)
     : assembly_(query.assembly),
+      up_(query.objective.up),
       constraints_(query.constraints),
       observer_(observer),
       context_(context),

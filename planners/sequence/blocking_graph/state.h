@@ -99,6 +99,7 @@ class DisassemblyState {
   const Assembly& assembly() const { return assembly_; }
   const Constraints& constraints() const { return constraints_; }
   RunContext& context() const { return context_; }
+  const Eigen::Vector3d& up() const { return up_; }  ///< Objective::up
   /// Knows all removals that were committed.
   const Preference& preference() const { return preference_; }
   /// The same members of the group, those first that the objective likes best to leave next, whatever the direction.
@@ -162,6 +163,7 @@ class DisassemblyState {
 
  private:
   const Assembly& assembly_;
+  Eigen::Vector3d up_;
   const Constraints& constraints_;
   SequenceObserver& observer_;
   RunContext& context_;

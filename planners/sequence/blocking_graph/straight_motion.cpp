@@ -200,6 +200,12 @@ double StraightMotion::path_length(const GroupState& group, const Subassemblies&
   return std::max(0.0, theirs - ours - shift.dot(d));
 }
 
+bool StraightMotion::follows(Course course, std::size_t direction) const {
+  constexpr double kSteep = 0.7;
+  const double upwards = directions_.all[direction].dot(state_.up());
+  return course == Course::any || upwards > (course == Course::up ? kSteep : -kSteep);
+}
+
 std::vector<std::size_t> StraightMotion::own_directions(SubassemblyId unit) const {
   std::vector<std::size_t> list;
   for (const PartId id : state_.parts_of(unit)) {
@@ -254,9 +260,9 @@ std::pair<std::optional<SubassemblyId>, std::vector<Pair>> StraightMotion::exami
   return {std::nullopt, std::move(pairs)};
 }
 
-/// Examines the directions of `unit` in waves of kWave, until one is free.
-void StraightMotion::resolve(const GroupState& group, SubassemblyId unit, std::span<const SubassemblyId> next) {
-  const std::vector<std::size_t> directions = directions_of(group, unit);
+/// Examines the directions in waves of kWave, until one is free.
+void StraightMotion::resolve(const GroupState& group, SubassemblyId unit, const std::vector<std::size_t>& directions,
+                             std::span<const SubassemblyId> next) {
   for (std::size_t first = 0; first < directions.size() && !state_.stop();) {
     const std::size_t last = std::min(first + kWave, directions.size());
     std::vector<Pair> questions;
@@ -333,10 +339,12 @@ void StraightMotion::hint_after_removal(const GroupState& group, const Subassemb
 }
 
 std::optional<std::size_t> StraightMotion::free_direction(const GroupState& group, SubassemblyId unit,
-                                                          std::span<const SubassemblyId> next) {
-  resolve(group, unit, next);
+                                                          std::span<const SubassemblyId> next, Course course) {
+  std::vector<std::size_t> directions = directions_of(group, unit);
+  std::erase_if(directions, [&](std::size_t d) { return !follows(course, d); });
+  resolve(group, unit, directions, next);
   if (state_.stop()) return std::nullopt;
-  for (const std::size_t d : directions_of(group, unit)) {
+  for (const std::size_t d : directions) {
     if (blocker_[unit].contains(d) || was_refused({unit}, d)) continue;
     // Directions stay undecided if an earlier wave had a free one, which the verifier then refused.
     if (!open_pairs(group, unit, d).empty()) continue;

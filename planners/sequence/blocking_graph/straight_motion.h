@@ -18,6 +18,13 @@
 
 namespace dismantle::blocking {
 
+/// Which directions a strategy looks at.
+enum class Course {
+  up,        ///< within 45 degrees of straight up (Objective::up): the reverse puts parts in from above
+  not_down,  ///< all but those within 45 degrees of straight down
+  any,
+};
+
 /// For each blocked direction one blocker is remembered, and the direction is not examined again while this blocker is
 /// in the group. `next` in the functions below: subassemblies that will probably be asked about afterwards; idle
 /// threads compute their relations speculatively.
@@ -28,7 +35,7 @@ class StraightMotion final : public GroupListener {
 
   /// The free direction with the shortest path, among the first few directions that include a free one.
   std::optional<std::size_t> free_direction(const GroupState& group, SubassemblyId id,
-                                            std::span<const SubassemblyId> next = {});
+                                            std::span<const SubassemblyId> next = {}, Course course = Course::any);
   /// All free directions that were not refused, in the order of their paths' lengths.
   std::vector<std::size_t> free_directions(const GroupState& group, SubassemblyId id);
   /// All subassemblies that block `id`.
@@ -45,6 +52,7 @@ class StraightMotion final : public GroupListener {
   double length_out(const GroupState& group, const Subassemblies& ids, std::size_t direction,
                     const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
 
+  bool follows(Course course, std::size_t direction) const;
   /// Directions of `id`, the one with the shortest path out of the group first.
   std::vector<std::size_t> directions_of(const GroupState& group, SubassemblyId id) const;
   const Directions& directions() const { return directions_; }
@@ -83,7 +91,8 @@ class StraightMotion final : public GroupListener {
   std::vector<std::size_t> own_directions(SubassemblyId id) const;
   std::pair<std::optional<SubassemblyId>, std::vector<Pair>> examine(const GroupState& group, SubassemblyId id,
                                                                      std::size_t direction) const;
-  void resolve(const GroupState& group, SubassemblyId id, std::span<const SubassemblyId> next);
+  void resolve(const GroupState& group, SubassemblyId id, const std::vector<std::size_t>& directions,
+               std::span<const SubassemblyId> next);
   void hint(const GroupState& group, std::span<const std::size_t> directions, SubassemblyId id,
             std::span<const SubassemblyId> next);
   void hint_after_removal(const GroupState& group, const Subassemblies& ids);

@@ -63,6 +63,26 @@ TEST(Blocking, StepsThatNeedNotWaitShareALayer) {
   }
 }
 
+TEST(Blocking, UpwardsLeavesTheBaseToTheEnd) {
+  // Piles of blocks on a small base that is listed first: every part can leave to all sides, once nothing is on it.
+  Rng rng(3);
+  for (int trial = 0; trial < 10; ++trial) {
+    std::vector<std::pair<std::string, std::vector<fake::Box>>> parts{{"base", {{{0, 0, 0}, {0.5, 0.5, 0.5}}}}};
+    const std::uint64_t n = 3 + rng.below(6);
+    for (std::uint64_t k = 0; k < n; ++k) {
+      const double x = rng.uniform(-0.8, 0.2), y = rng.uniform(-0.8, 0.2), z = 0.6 + 1.1 * static_cast<double>(k);
+      parts.push_back({"block" + std::to_string(k), {{{x, y, z}, {x + 1, y + 1, z + 1}}}});
+    }
+    BlockingParams params;
+    params.upwards = true;
+    const RunResult r = take_apart(fake::assembly_of(parts), 1, {}, &helpless, {}, params);
+    ASSERT_EQ(r.outcome, Outcome::solved);
+    ASSERT_EQ(r.plan.disassembly.size(), n);
+    for (std::uint64_t k = 0; k < n; ++k)
+      EXPECT_EQ(r.plan.disassembly[k].separates[0][0], "block" + std::to_string(n - 1 - k));
+  }
+}
+
 TEST(Blocking, SaysWhatNeverComesOut) {
   const RunResult r = take_apart(fake::closed_box());
   EXPECT_EQ(r.outcome, Outcome::exhausted);

@@ -10,8 +10,8 @@ namespace dismantle::blocking {
 class FreeGroup final : public Strategy {
  public:
   /// `proposals`: groups that are proposed to the verifier before other strategies are tried.
-  FreeGroup(DisassemblyState& state, StraightMotion& straight, unsigned proposals)
-      : state_(state), straight_(straight), proposals_(proposals) {}
+  FreeGroup(DisassemblyState& state, StraightMotion& straight, unsigned proposals, Course course = Course::any)
+      : state_(state), straight_(straight), proposals_(proposals), course_(course) {}
   std::string_view name() const noexcept override { return "free_group"; }
   Cost cost() const noexcept override { return Cost::pair_sweeps; }
   Result apply(GroupState& group) override;
@@ -28,6 +28,7 @@ class FreeGroup final : public Strategy {
   DisassemblyState& state_;
   StraightMotion& straight_;
   unsigned proposals_;
+  Course course_;
   PerGroup<bool> done_;
 };
 

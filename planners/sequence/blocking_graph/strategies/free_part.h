@@ -8,7 +8,8 @@ namespace dismantle::blocking {
 
 class FreePart final : public Strategy {
  public:
-  FreePart(DisassemblyState& state, StraightMotion& straight) : state_(state), straight_(straight) {}
+  FreePart(DisassemblyState& state, StraightMotion& straight, Course course = Course::any)
+      : state_(state), straight_(straight), course_(course) {}
   std::string_view name() const noexcept override { return "free_part"; }
   Cost cost() const noexcept override { return Cost::pair_sweeps; }
   Result apply(GroupState& group) override;
@@ -18,6 +19,7 @@ class FreePart final : public Strategy {
 
   DisassemblyState& state_;
   StraightMotion& straight_;
+  Course course_;
 };
 
 }  // namespace dismantle::blocking
