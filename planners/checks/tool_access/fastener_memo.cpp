@@ -7,6 +7,7 @@
 #include "dismantle/fasteners/name.h"
 #include "dismantle/fasteners/recognise.h"
 #include "dismantle/geometry/face_axes.h"
+#include "turned_first.h"
 
 namespace dismantle::checks {
 namespace {
@@ -93,15 +94,15 @@ const Driven* FastenerMemo::driven(PartId part) const {
 }
 
 std::optional<Driven> FastenerMemo::look_at(const Part& part) const {
-  if (part.open) return std::nullopt;
   const auto among = [](Kind kind) {
     return kind == Kind::screw || kind == Kind::nut || kind == Kind::ring || kind == Kind::pin || kind == Kind::bearing;
   };
   if (part.kind && !among(fasteners::kind_from_string(part.kind->kind).value_or(Kind::other))) return std::nullopt;
-  const Shape shape = fasteners::recognise_shape(*part.mesh, mm_);
+  Shape shape = fasteners::recognise_shape(*part.mesh, mm_);
   const PartKind said = kind_of(part, shape);
   const Kind kind = fasteners::kind_from_string(said.kind).value_or(Kind::other);
-  if (!among(kind)) return std::nullopt;
+  const bool turned = kind == Kind::screw || kind == Kind::nut;
+  if (!among(kind) || (part.open && !turned)) return std::nullopt;
   if (kind == Kind::pin || kind == Kind::bearing) return pressed_in(part, shape, said);
   Driven out;
   out.part = part.id;
@@ -114,6 +115,17 @@ std::optional<Driven> FastenerMemo::look_at(const Part& part) const {
     if (!open_ring || !lay_circlip(*part.mesh, mm_, f)) return std::nullopt;
     out.either_side = true;
     out.height = f.grip;
+    find_partners(out, shape);
+    return out;
+  }
+  if (part.open || !(shape.height > 0) || !(shape.radius > 0)) {
+    // Where it is tells what it is in; a tool needs its axis, too.
+    out.unknown = part.open ? "its surface is not closed" : "it is known by its name only, and its shape has no axis";
+    const Eigen::Vector3d size = part.mesh->box().size();
+    shape = Shape{};
+    shape.top = part.mesh->box().center();
+    shape.radius = shape.shank_radius = size.minCoeff() / 2;
+    f.top = shape.top;
     find_partners(out, shape);
     return out;
   }
@@ -318,6 +330,21 @@ BlockedBy FastenerMemo::blocked(const Driven& driven, const tools::Fastener& fas
     out.arcs_.push_back(in_place ? &row->arcs[part] : &out.moved_[i]);
   }
   return out;
+}
+
+std::span<const tools::Arcs> FastenerMemo::turned(const Driven& driven, const tools::Fastener& fastener, bool flipped,
+                                                  const tools::Use& use, std::size_t place, PartId part,
+                                                  bool hand) const {
+  const std::lock_guard lock(mutex_);
+  const auto [it, fresh] = turned_.try_emplace({{driven.part, flipped, fastener.travel, place, hand}, part});
+  if (!fresh) return it->second;
+  if (const auto axis = turning_axis(*assembly_.parts[part].mesh))
+    for (int k = 1; k < 36; ++k) {
+      const Pose pose = turned_about(*axis, k * std::numbers::pi / 18);
+      it->second.push_back(
+          tools::blocked_angles(use, fastener, {&surface(part), !assembly_.parts[part].open, pose}, hand));
+    }
+  return it->second;
 }
 
 tools::Access FastenerMemo::room(const tools::Fastener& fastener, const tools::Use& use, const BlockedBy& blocked,

@@ -25,6 +25,7 @@ struct Driven {
   PartId part = 0;
   tools::Fastener fastener;  ///< as assembled
   std::string size;          ///< "M3x10"; empty: not known
+  std::string unknown{};     ///< why its axis is not known, for people; empty: it is
   bool either_side = false;  ///< the tool comes from either end of the axis
   double height = 0;         ///< mm, along the axis, of what the tool may come to from either end
   bool pressed = false;      ///< without play in, or on, each of its partners
@@ -40,6 +41,8 @@ class BlockedBy {
   BlockedBy(BlockedBy&&) = default;
   BlockedBy& operator=(BlockedBy&&) = default;
   std::span<const tools::Arcs* const> arcs() const { return arcs_; }
+  /// Another answer for the part at this place among those that are there.
+  void replace(std::size_t index, const tools::Arcs& arcs) { arcs_[index] = &arcs; }
 
  private:
   friend class FastenerMemo;
@@ -75,6 +78,10 @@ class FastenerMemo {
   /// where it is. `place`: number of the use in its catalogue.
   BlockedBy blocked(const Driven& driven, const tools::Fastener& fastener, bool flipped, const tools::Use& use,
                     std::size_t place, std::span<const PlacedPart> there, const Pose& pose, bool hand) const;
+  /// What is in the way if `part`, which is in its place, is turned about its own axis by k times 10 degrees, for k
+  /// from 1 to 35. Empty: it has no such axis. The arguments as for blocked().
+  std::span<const tools::Arcs> turned(const Driven& driven, const tools::Fastener& fastener, bool flipped,
+                                      const tools::Use& use, std::size_t place, PartId part, bool hand) const;
   /// Where the use of a tool has room past it. Ids of parts are in Access::in_the_way.
   static tools::Access room(const tools::Fastener& fastener, const tools::Use& use, const BlockedBy& blocked,
                             std::span<const PlacedPart> there, const Pose& pose);
@@ -106,6 +113,7 @@ class FastenerMemo {
   mutable std::vector<std::optional<PartId>> screw_in_, nut_of_;               // by nut, by screw
   mutable std::mutex mutex_;
   mutable std::map<Key, std::shared_ptr<Row>> rows_;
+  mutable std::map<std::pair<Key, PartId>, std::vector<tools::Arcs>> turned_;
 };
 
 }  // namespace dismantle::checks

@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "advice.h"
 #include "dismantle/tools/two_tools.h"
 #include "order_notes.h"
+#include "tool_picture.h"
 #include "tool_words.h"
 
 namespace dismantle::checks {
@@ -19,40 +21,15 @@ using nlohmann::json;
 
 constexpr double kChange = 0.1;  // of the tool; ten changes are as bad as a fastener that cannot be driven
 
-/// A tool in its place, or the best one that has none.
-struct Reach {
-  const tools::Tool* tool = nullptr;  // null: none of the catalogue fits
-  tools::Access access;
-  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();  // top of the fastener, input units
-  bool reaches() const { return tool != nullptr && access.reaches(); }
-};
-
-/// What is turned, and what must not turn with it.
-struct Task {
-  const Driven* turned = nullptr;
-  const Driven* held = nullptr;     // null: it needs no second tool
-  std::optional<PartId> partner{};  // what it is driven into, or onto
-  std::optional<PartId> kept_by{};  // a part in which the other one cannot turn
-  bool hold_unknown = false;        // the drive of the other one is not recognised
-};
-
-struct Answer {
-  Task task;
-  Reach turning, holding;
-  bool reaches() const { return turning.reaches() && (task.held == nullptr || holding.reaches()); }
-};
-
-bool is_turned(const Driven& d) { return d.fastener.kind == Kind::screw || d.fastener.kind == Kind::nut; }
-bool has_drive(const Driven& d) {
-  return !is_turned(d) || (d.fastener.drive != fasteners::Drive::none && d.fastener.size > 0);
-}
-bool has_size(const Driven& d) { return d.fastener.kind == Kind::ring || (!d.size.empty() && d.size.front() != '?'); }
-
 class Judge {
  public:
-  Judge(const FastenerMemo& memo, const std::vector<tools::Tool>& all, bool hand, const StepQuestion& question)
-      : memo_(memo), all_(all), hand_(hand), q_(question), in_hand_(all.size()) {
+  Judge(const FastenerMemo& memo, const Bench& bench, const StepQuestion& question)
+      : memo_(memo),
+        all_(bench.tools),
+        left_out_(bench.left_out),
+        hand_(bench.hand),
+        q_(question),
+        in_hand_(bench.tools.size()) {
     there_.assign(q_.present.begin(), q_.present.end());
     there_.insert(there_.end(), q_.moving.begin(), q_.moving.end());
   }
@@ -91,14 +68,17 @@ class Judge {
     verdict_.notes.push_back({fmt::format("tool_access.{}", kind), std::move(text), data.dump()});
   }
   /// What the screw does, or the screw that a nut is on.
-  void add_fastening(const Driven& driven, std::string& text, json& data) const {
+  const fasteners::Fastening* fastening_about(const Driven& driven) const {
     const std::optional<PartId> on = driven.fastener.kind == Kind::nut ? memo_.screw_in(driven.part) : driven.part;
-    const fasteners::Fastening* f = on ? memo_.fastening_of(*on) : nullptr;
+    return on ? memo_.fastening_of(*on) : nullptr;
+  }
+  void add_fastening(const Driven& driven, std::string& text, json& data) const {
+    const fasteners::Fastening* f = fastening_about(driven);
     if (f == nullptr) return;
     const std::string words = fasteners::fastening_text(memo_.assembly(), *f);
     if (words.empty()) return;
-    text += fmt::format(" '{}' {}{}.", name(*on), words.starts_with("driven") ? "is " : "", words);
-    json& out = data["fastens"] = {{"screw", name(*on)}};
+    text += fmt::format(" '{}' {}{}.", name(f->screw), words.starts_with("driven") ? "is " : "", words);
+    json& out = data["fastens"] = {{"screw", name(f->screw)}};
     for (const auto& [key, parts] : {std::pair{"clamps", &f->clamps}, {"into", &f->into}, {"only", &f->only}})
       for (const PartId part : *parts) out[key].push_back(name(part));
   }
@@ -116,6 +96,7 @@ class Judge {
     }
     if (other && is_in(*other, q_.moving)) return;
     if (!partner && f.kind != Kind::screw) return;
+    if (!driven.unknown.empty()) return not_checked(driven, driven.unknown);
     // A nut that is put in across its axis goes into a trap and is not screwed on.
     if (f.kind == Kind::nut && !q_.direction.isZero() && std::abs(q_.direction.dot(pose.q * f.axis)) < 0.1) return;
     if (f.kind == Kind::screw && other && !is_in(*other, q_.present)) {
@@ -126,16 +107,17 @@ class Judge {
     const char* why = !has_drive(driven)  ? "its drive is not recognised"
                       : !has_size(driven) ? "its size is in no table"
                                           : nullptr;
-    if (why != nullptr) {
-      note("not_checked", fmt::format("Whether a tool reaches '{}' was not checked: {}.", name(driven), why), driven,
-           {{"reason", why}});
-      return;
-    }
+    if (why != nullptr) return not_checked(driven, why);
     if (driven.pressed)
-      report_pressed(driven, answer(driven, partner, {}, pose), *partner);
+      report_pressed(driven, answer(driven, partner, {}, pose), *partner, pose);
     else
-      report(driven, answer(driven, partner, other, pose));
+      report(driven, answer(driven, partner, other, pose), pose);
     if (const auto screw = f.kind == Kind::nut ? other : driven.part) look_at_order(*screw);
+  }
+
+  void not_checked(const Driven& driven, const std::string& why) {
+    note("not_checked", fmt::format("Whether a tool reaches '{}' was not checked: {}.", name(driven), why), driven,
+         {{"reason", why}});
   }
 
   /// What the order of the screws calls for.
@@ -217,7 +199,11 @@ class Judge {
   }
 
   Reach reach_of(const tools::Tool& tool, const tools::Fastener& f, const Pose& pose, tools::Access access) const {
-    return {&tool, std::move(access), pose.q * f.axis, memo_.assembly().normalization.to_input(pose * f.top)};
+    const Normalization& units = memo_.assembly().normalization;
+    Reach out{&tool, std::move(access), pose.q * f.axis, units.to_input(pose * f.top)};
+    out.fastener = f;
+    if (out.reaches()) out.seat = units.to_input(pose * tools::seat_of(*out.access.use, f));
+    return out;
   }
 
   static void keep_better(Reach& best, Reach&& found) {
@@ -235,7 +221,10 @@ class Judge {
           const tools::Use& use = all_[t].uses[u];
           const BlockedBy blocked = memo_.blocked(*task.turned, fastener, flipped, use, place + u, there, pose, hand_);
           Reach found = reach_of(all_[t], fastener, pose, FastenerMemo::room(fastener, use, blocked, there, pose));
+          found.flipped = flipped;
+          found.place = place + u;
           if (!found.reaches()) {
+            if (!turns && found.access.in_the_way.size() == 1) out.one_in_the_way.push_back(found);
             if (!turns) keep_better(out.turning, std::move(found));
             continue;
           }
@@ -248,6 +237,25 @@ class Judge {
       return false;
     });
     return out;
+  }
+
+  /// A tool that `only` leaves out, and that would reach; null: none.
+  const tools::Tool* left_out_for(const Task& task, const Pose& pose) const {
+    std::size_t place = 0;  // they are numbered after the others
+    for (const tools::Tool& tool : all_) place += tool.uses.size();
+    const std::vector<PlacedPart> there = without(task.turned->part);
+    for (const tools::Tool& tool : left_out_) {
+      const bool fits = tools::fits(tool, task.turned->fastener);
+      for (std::size_t u = 0; fits && u < tool.uses.size(); ++u)
+        for (const bool flipped : sides_of(*task.turned, pose)) {
+          const tools::Fastener f = memo_.driven_by(*task.turned, task.partner, flipped);
+          const BlockedBy blocked =
+              memo_.blocked(*task.turned, f, flipped, tool.uses[u], place + u, there, pose, hand_);
+          if (FastenerMemo::room(f, tool.uses[u], blocked, there, pose).reaches()) return &tool;
+        }
+      place += tool.uses.size();
+    }
+    return nullptr;
   }
 
   /// A tool for the other end that does not meet the one that turns.
@@ -298,12 +306,14 @@ class Judge {
             {"at", json_of(found.at)},
             {"from", json_of(found.axis)},
             {"handle", json_of(found.access.handle)},
-            {"swing", found.access.use->swing}};
+            {"swing", found.access.use->swing},
+            {"picture", picture_of(*found.access.use, found.fastener, found.seat,
+                                   found.fastener.mm * memo_.assembly().normalization.scale, hand_)}};
   }
 
   /// Where only facets overlap it may go in by hand: that costs nothing.
-  void report_pressed(const Driven& driven, const Answer& a, PartId partner) {
-    if (!a.reaches()) return driven.sure ? report_blocked(driven, a) : void();
+  void report_pressed(const Driven& driven, const Answer& a, PartId partner, const Pose& pose) {
+    if (!a.reaches()) return driven.sure ? report_blocked(driven, a, pose) : void();
     if (driven.sure) take_up(a);
     const std::string use = use_text(*a.turning.tool, *a.turning.access.use);
     std::string text =
@@ -314,8 +324,8 @@ class Judge {
     note("tool", std::move(text), driven, std::move(data));
   }
 
-  void report(const Driven& driven, const Answer& a) {
-    if (!a.reaches()) return report_blocked(driven, a);
+  void report(const Driven& driven, const Answer& a, const Pose& pose) {
+    if (!a.reaches()) return report_blocked(driven, a, pose);
     take_up(a);
     const Driven& turned = *a.task.turned;
     const tools::Use& use = *a.turning.access.use;
@@ -340,7 +350,7 @@ class Judge {
     note("tool", text + ".", driven, std::move(data));
   }
 
-  void report_blocked(const Driven& driven, const Answer& a) {
+  void report_blocked(const Driven& driven, const Answer& a, const Pose& pose) {
     ++unreached_;
     const bool turns = a.turning.reaches();
     const Driven& about = turns ? *a.task.held : *a.task.turned;
@@ -362,12 +372,20 @@ class Judge {
         data["in_the_way"].push_back(name(static_cast<PartId>(part)));
     }
     if (&about != &driven) data[turns ? "held" : "turned"] = name(about);
+    if (const tools::Tool* other = turns ? nullptr : left_out_for(a.task, pose)) {
+      text += fmt::format(" The catalogue has one that does: {}.", other->name);
+      data["left_out"] = other->id;
+    }
+    if (best.tool != nullptr && !turns)
+      add_advice({memo_, *a.task.turned, fastening_about(*a.task.turned), best, a.one_in_the_way,
+                  without(a.task.turned->part), pose, hand_},
+                 text, data);
     if (verdict_.reason.empty()) verdict_.reason = fmt::format("no tool {} '{}'", does, name(about));
     note("blocked", std::move(text), driven, std::move(data));
   }
 
   const FastenerMemo& memo_;
-  const std::vector<tools::Tool>& all_;
+  const std::vector<tools::Tool>&all_, &left_out_;
   bool hand_;
   const StepQuestion& q_;
   std::vector<PlacedPart> there_;
@@ -380,9 +398,8 @@ class Judge {
 
 }  // namespace
 
-StepVerdict judge_step(const FastenerMemo& memo, const std::vector<tools::Tool>& tools, bool hand,
-                       const StepQuestion& question) {
-  return Judge(memo, tools, hand, question).verdict();
+StepVerdict judge_step(const FastenerMemo& memo, const Bench& bench, const StepQuestion& question) {
+  return Judge(memo, bench, question).verdict();
 }
 
 }  // namespace dismantle::checks

@@ -9,8 +9,13 @@
 
 namespace dismantle::checks {
 
-/// `hand`: the hands need room, too.
-StepVerdict judge_step(const FastenerMemo& memo, const std::vector<tools::Tool>& tools, bool hand,
-                       const StepQuestion& question);
+/// What there is to work with.
+struct Bench {
+  const std::vector<tools::Tool>& tools;
+  const std::vector<tools::Tool>& left_out;  ///< of the catalogue; only named where none of `tools` reaches
+  bool hand;                                 ///< the hands need room, too
+};
+
+StepVerdict judge_step(const FastenerMemo& memo, const Bench& bench, const StepQuestion& question);
 
 }  // namespace dismantle::checks

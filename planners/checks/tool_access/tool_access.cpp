@@ -22,7 +22,8 @@ std::vector<std::string> listed(const std::string& text) {
   return out;
 }
 
-std::vector<tools::Tool> chosen(const ToolAccessParams& params) {
+/// `left_out` receives the tools that `only` does not name.
+std::vector<tools::Tool> chosen(const ToolAccessParams& params, std::vector<tools::Tool>& left_out) {
   std::vector<tools::Tool> all;
   std::vector<Diagnostic> problems;
   for (const std::string& file : listed(params.catalogue))
@@ -37,8 +38,12 @@ std::vector<tools::Tool> chosen(const ToolAccessParams& params) {
     if (std::none_of(all.begin(), all.end(), [&](const tools::Tool& t) { return t.id == id; }))
       problems.push_back({"", 0, 0, fmt::format("tool_access: only: there is no tool '{}' in the catalogue", id)});
   if (!problems.empty()) throw ConfigError(std::move(problems));
-  if (!only.empty())
-    std::erase_if(all, [&](const tools::Tool& t) { return std::find(only.begin(), only.end(), t.id) == only.end(); });
+  if (only.empty()) return all;
+  const auto end = std::stable_partition(all.begin(), all.end(), [&](const tools::Tool& t) {
+    return std::find(only.begin(), only.end(), t.id) != only.end();
+  });
+  left_out.assign(end, all.end());
+  all.erase(end, all.end());
   return all;
 }
 
@@ -51,7 +56,7 @@ void ToolAccessParams::describe(Schema<ToolAccessParams>& s) {
   s.add("hand", &ToolAccessParams::hand, {.doc = "The hand that holds the tool needs room, too."});
 }
 
-ToolAccess::ToolAccess(const ToolAccessParams& params) : params_(params), own_(chosen(params)) {}
+ToolAccess::ToolAccess(const ToolAccessParams& params) : params_(params), own_(chosen(params, left_out_)) {}
 ToolAccess::~ToolAccess() = default;
 
 const std::vector<tools::Tool>& ToolAccess::tools() const { return own_.empty() ? tools::standard_catalogue() : own_; }
@@ -64,7 +69,7 @@ std::shared_ptr<const FastenerMemo> ToolAccess::memo_of(const Assembly& assembly
 
 StepVerdict ToolAccess::judge(const StepQuestion& question, const RunContext& /*context*/) const {
   const std::shared_ptr<const FastenerMemo> memo = memo_of(question.assembly);
-  return judge_step(*memo, tools(), params_.hand, question);
+  return judge_step(*memo, {tools(), left_out_, params_.hand}, question);
 }
 
 }  // namespace dismantle::checks

@@ -36,6 +36,8 @@ class ToolAccess final : public StepCheck {
   std::shared_ptr<const FastenerMemo> memo_of(const Assembly& assembly) const;
 
   ToolAccessParams params_;
+  std::vector<tools::Tool>
+      left_out_{};                // tools of the catalogue that `only` does not name; before `own_`, which fills it
   std::vector<tools::Tool> own_;  // empty: the standard catalogue
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const FastenerMemo> known_;  // of the assembly that was asked about last

@@ -40,6 +40,13 @@ TEST(ToolAccess, AScrewInAWell) {
     EXPECT_LT((mm * at - pose * Vector3d(0, 0, 3)).norm(), 0.02);
     const Vector3d handle(data["handle"][0], data["handle"][1], data["handle"][2]);
     EXPECT_NEAR(handle.dot(from), 0, 1e-9);
+    // The solid of the tool, to be drawn: its shaft ends at the top of the screw, in every unit.
+    const nlohmann::json& picture = data["picture"];
+    EXPECT_NEAR(picture["mm"], mm, 1e-6 * mm);
+    const Vector3d origin(picture["origin"][0], picture["origin"][1], picture["origin"][2]);
+    EXPECT_LT(mm * (origin - at).norm(), 1e-6);
+    EXPECT_EQ(picture["tool"][0]["tube"]["z"][0], 0);
+    EXPECT_FALSE(picture["hand"].empty());
 
     v = judge(check, assembly, {screw_id}, {plate_id, low}, down);
     EXPECT_EQ(v.cost, 0);
@@ -80,6 +87,22 @@ TEST(ToolAccess, SaysWhatWasNotChecked) {
   v = judge(ToolAccess(), scene.assembly(), {screw_id}, {plate_id}, -Vector3d::UnitZ());
   EXPECT_EQ(v.cost, 0);
   EXPECT_NE(std::string(data_of(v, "not_checked")["reason"]).find("size"), std::string::npos);
+}
+
+// A screw that only its name tells: a block, or a surface with a hole. It is in the plate, and comes with it.
+TEST(ToolAccess, SaysThatAScrewWithoutAnAxisWasNotChecked) {
+  Scene scene;
+  const PartId block = scene.add("set screw M3x6", shapes::box({-1.4, -1.2, -7}, {1.4, 1.2, -1}));
+  const PartId plate_id = scene.add("plate", plate()), far = scene.add("far", wall(4, 40));
+  for (const bool open : {false, true}) {
+    Assembly assembly = scene.assembly();
+    assembly.parts[block].open = open;
+    const StepVerdict v = judge(ToolAccess(), assembly, {block}, {plate_id}, -Vector3d::UnitZ());
+    EXPECT_EQ(v.cost, 0);
+    const std::string reason = data_of(v, "not_checked")["reason"];
+    EXPECT_EQ(reason, open ? "its surface is not closed" : "it is known by its name only, and its shape has no axis");
+    EXPECT_TRUE(judge(ToolAccess(), assembly, {block, plate_id}, {far}, -Vector3d::UnitZ()).notes.empty());
+  }
 }
 
 TEST(ToolAccess, WithoutAToolThatFitsItCostsOne) {

@@ -41,6 +41,11 @@ using Arcs = std::vector<std::pair<double, double>>;
 /// True if the tool is made for the drive, or the kind of part, and its size.
 DISMANTLE_API bool fits(const Tool& tool, const Fastener& fastener);
 
+/// The origin of the volumes of a tool that is on its fastener, in assembly units.
+DISMANTLE_API Eigen::Vector3d seat_of(const Use& use, const Fastener& fastener);
+/// The volumes as they are on this fastener: what stands beside it is moved out to its circumference.
+DISMANTLE_API std::vector<Volume> volumes_on(std::vector<Volume> volumes, const Use& use, const Fastener& fastener);
+
 /// The angles at which the tool, anywhere on its travel along the axis, meets the part. Everything else is proved to be
 /// clear on the part's triangles; what could not be decided within 1e-4 rad counts as blocked. The result does not
 /// depend on the other parts that are there.
