@@ -279,6 +279,19 @@ class Serve(CliTest):
         self.assertFalse(os.path.exists(self.path("in", "blocks.constraints.yaml")))
         self.assertEqual(len(self.plan("blocks", timeout=60)["steps"]), 4)
 
+    def test_a_forced_step_is_accepted(self):
+        self.run_program("sample", "snap_fit", "-o", "in/clip", "-q", status=0)
+        self.start()
+        product = self.plan("clip", timeout=60)
+        self.assertEqual((product["job"]["state"], product["job"]["status"]), ("done", "forced"), product["job"])
+        cut = product["steps"][0]["cut"]
+        self.assertEqual((cut["part"], cut["against"], cut["accepted"]), ("clip", "plate", ""))
+        accept = [{"part": cut["part"], "against": cut["against"], "as": "snap", "depth": 1.1 * cut["depth"]}]
+        self.ask("/api/constraints", name="clip", constraints={"accept": accept})
+        product = self.plan("clip", timeout=60)
+        self.assertEqual((product["job"]["status"], product["constraints"]["accept"]), ("complete", accept), product["job"])
+        self.assertEqual(product["steps"][0]["cut"]["accepted"], "snap")
+
 
 if __name__ == "__main__":
     unittest.main()

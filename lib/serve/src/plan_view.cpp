@@ -20,6 +20,13 @@ nlohmann::json plan_view(const std::string& plan_json) {
       for (const auto& move : disassembly[k].at("moves")) moved.push_back(move.at("part"));
       steps.push_back(
           {{"step", disassembly.size() - k}, {"parts", moved}, {"forced", disassembly[k].contains("forced")}});
+      if (steps.back()["forced"].get<bool>() && disassembly[k]["forced"].contains("pair")) {
+        const auto& forced = disassembly[k]["forced"];
+        steps.back()["cut"] = {{"part", forced.at("pair").at(0)},
+                               {"against", forced.at("pair").at(1)},
+                               {"depth", forced.at("depth")},
+                               {"accepted", forced.value("accepted", "")}};
+      }
     }
     return {{"steps", steps}, {"parts", parts}};
   } catch (const nlohmann::json::exception& e) {

@@ -14,6 +14,8 @@ TEST(Constraints, WhatIsWrittenIsReadBack) {
                               {"ignore", {"say \"x\"", "yes"}},
                               {"flexible", {"Gehäuse"}},
                               {"together", nlohmann::json::parse(R"([["lid", "screw: 1"], ["yes", "housing"]])")},
+                              {"accept", nlohmann::json::parse(R"([{"part": "lid", "against": "screw: 1", "as": "snap",
+                                                                   "depth": 1.25}])")},
                               {"target", "lid"}};
   EXPECT_EQ(constraints_in(constraints_yaml(all, kParts, "")), all);
   for (const auto& [key, value] : all.items())
@@ -31,7 +33,10 @@ TEST(Constraints, OtherThingsAreRefused) {
   using nlohmann::json;
   for (const json& wrong : {json::array(), json{{"run", {{"seed", 1}}}}, json{{"base", "housing"}}, json{{"base", {1}}},
                             json{{"base", {"none"}}}, json{{"together", {"lid"}}}, json{{"together", "lid"}},
-                            json{{"target", "none"}}, json{{"target", 1}}})
+                            json{{"target", "none"}}, json{{"target", 1}}, json{{"accept", {"lid"}}},
+                            json::parse(R"({"accept": [{"part": "lid", "against": "none", "as": "snap", "depth": 1}]})"),
+                            json::parse(R"({"accept": [{"part": "lid", "against": "yes", "as": "snap", "depth": 0}]})"),
+                            json::parse(R"({"accept": [{"part": "lid", "against": "yes", "as": 1, "depth": 1}]})")})
     EXPECT_THROW(constraints_yaml(wrong, kParts, ""), Error) << wrong;
   EXPECT_THROW(constraints_in("constraints: {base: housing}"), Error);
   EXPECT_THROW(constraints_in("{"), Error);
