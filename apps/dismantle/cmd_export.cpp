@@ -1,7 +1,11 @@
 // dismantle export PLAN.json --format FORMAT
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <array>
+#include <cstdlib>
+#include <sstream>
 
 #include "dismantle/command.h"
 #include "dismantle/console.h"
@@ -12,8 +16,12 @@
 #include "dismantle/plan_io/job_list.h"
 #include "dismantle/plan_io/robot_exports.h"
 #include "dismantle/plan_io/write_file.h"
+#include "dismantle/process/child.h"
 #include "dismantle/settings.h"
 #include "dismantle/stopped.h"
+#ifdef DISMANTLE_BOOK_LIBRARY
+#include "dismantle/book_library.h"
+#endif
 
 namespace dismantle::app {
 namespace {
@@ -32,8 +40,10 @@ struct ExportFormat {
   /// Not null: distances are better with the parts' surfaces, if they are there.
   std::string (*of_steps)(const Plan&, const InputFrame&, const GuidedDistances&) = nullptr;
 
+  /// Drawn by the library of the book.
+  bool is_film() const { return binary && of_assembly == nullptr; }
   /// Lengths are metres, whatever the input has.
-  bool in_metres() const { return binary || of_folder != nullptr; }
+  bool in_metres() const { return (binary && !is_film()) || of_folder != nullptr; }
 };
 
 constexpr std::array kExportFormats{
@@ -61,6 +71,8 @@ constexpr std::array kExportFormats{
     ExportFormat{"tools-csv", "tools.csv", "tools of the whole job", false,
                  [](const Plan& p, const InputFrame&) { return tools_csv(p); }, nullptr},
     ExportFormat{"markdown", "steps.md", "table of the steps", false, nullptr, nullptr, nullptr, steps_markdown},
+    ExportFormat{"gif", "assembly.gif", "a film of the steps, animated GIF", true, nullptr, nullptr},
+    ExportFormat{"mp4", "assembly.mp4", "the same as MP4, by the program ffmpeg", true, nullptr, nullptr},
     ExportFormat{"mjcf", "mjcf/", "a model for MuJoCo with a state for each step", false, nullptr, nullptr, to_mjcf},
     ExportFormat{"ros", "ros/", "a URDF and trajectories for ROS 2", false, nullptr, nullptr, to_ros},
 };
@@ -68,6 +80,7 @@ constexpr std::array kExportFormats{
 struct ExportOptions {
   std::string plan, format, output, assembly;
   FrameOptions frame;
+  bool disassembly = false;
   ConsoleOptions console;
 };
 
@@ -114,6 +127,68 @@ GuidedDistances distances_of(const Plan& plan, const ExportOptions& options, Con
   }
 }
 
+#ifdef DISMANTLE_BOOK_LIBRARY
+std::string film_of(const Plan& plan, const ExportOptions& options, const InputFrame& frame, const Session& session,
+                    RunContext& context) {
+  return stoppable(context, [&] {
+    const Assembly assembly = session.assembly_of(plan, source_of(plan, options.plan, options.assembly), context);
+    FilmOptions how;
+    how.frame = frame;
+    how.disassembly = options.disassembly;
+    how.on_step = [&](std::size_t step, std::size_t steps) {
+      if (context.should_stop()) throw Error("stopped");
+      context.progress("drawing", step, steps, fmt::format("step {}", step));
+    };
+    return book_library().gif(plan, assembly, how);
+  });
+}
+#else
+std::string film_of(const Plan&, const ExportOptions&, const InputFrame&, const Session&, RunContext&) {
+  throw Error("this program was built without pictures; install libpango1.0-dev and build again");
+}
+#endif
+
+/// Path of a program that stands in $PATH, or nothing.
+std::string program_named(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (const std::string file = folder + "/" + name; !folder.empty() && ::access(file.c_str(), X_OK) == 0) return file;
+  return {};
+}
+
+/// Has ffmpeg make a film of the GIF. @throws Error when it fails.
+void write_mp4(const std::string& ffmpeg, const std::string& gif, const std::filesystem::path& file,
+               const RunContext& context) {
+  const std::filesystem::path source = file.string() + ".gif", target = file.string() + ".part.mp4";
+  write_file(source, gif);
+  const process::End end =
+      process::run({.command = {ffmpeg, "-nostdin", "-loglevel", "error", "-y", "-i", source.string(), "-pix_fmt",
+                                "yuv420p", "-movflags", "+faststart", target.string()}},
+                   [&] { return context.should_stop(); });
+  std::filesystem::remove(source);
+  if (end.status != 0 || end.signal != 0) {
+    std::filesystem::remove(target);
+    throw Error(fmt::format("ffmpeg failed: {}", end.last_words));
+  }
+  std::filesystem::rename(target, file);
+}
+
+int export_film(const Plan& plan, const ExportOptions& options, const InputFrame& frame,
+                const std::filesystem::path& target, Console& console) {
+  const Session session = reader(console);
+  RunContext context = context_of(session, console);
+  const std::string ffmpeg = program_named("ffmpeg");
+  if (options.format == "mp4" && ffmpeg.empty())
+    throw Error("--format mp4 needs the program ffmpeg, which is not there (Debian: apt-get install ffmpeg); gif does not");
+  const std::string gif = film_of(plan, options, frame, session, context);
+  if (options.format == "gif") return write_text(gif, target, false, console);
+  console.end_progress();
+  stoppable(context, [&] { write_mp4(ffmpeg, gif, target, context); });
+  console.text(fmt::format("wrote {}\n", target.string()));
+  return kComplete;
+}
+
 int export_plan(const ExportOptions& options) {
   Console console(options.console);
   const ExportFormat* format = nullptr;
@@ -122,7 +197,8 @@ int export_plan(const ExportOptions& options) {
   const Plan plan = read_plan(options.plan);
   const InputFrame frame = frame_of(plan, options.frame);
   const bool to_stdout = options.output == "-";
-  if (to_stdout && format->binary) throw Error("a .glb file is binary: name a file with -o");
+  if (to_stdout && format->binary) throw Error(fmt::format("{} is binary: name a file with -o", options.format));
+  if (options.disassembly && !format->is_film()) throw Error("--disassembly is for films: gif, mp4");
   if (to_stdout && format->of_folder != nullptr)
     throw Error(fmt::format("{} is a folder of several files: name a folder with -o", options.format));
   const std::filesystem::path target = options.output.empty()
@@ -132,6 +208,7 @@ int export_plan(const ExportOptions& options) {
   if (format->of_plan != nullptr) return write_text(format->of_plan(plan, frame), target, to_stdout, console);
   if (format->of_steps != nullptr)
     return write_text(format->of_steps(plan, frame, distances_of(plan, options, console)), target, to_stdout, console);
+  if (format->is_film()) return export_film(plan, options, frame, target, console);
   const Assembly assembly = assembly_for(plan, options, console);
   if (format->in_metres() && !frame.unit_known)
     console.warning(fmt::format("the files do not name their unit: {} is assumed; --unit names another", frame.unit));
@@ -161,6 +238,7 @@ void add_export(CLI::App& app, Action& action) {
       ->option_text("FILE");
   command->add_option("--assembly", options->assembly, "The input that the plan is for, if it has moved")
       ->option_text("INPUT");
+  command->add_flag("--disassembly", options->disassembly, "Films: how to take it apart, instead of together");
   add_frame(*command, options->frame);
   add_verbosity(*command, options->console);
   command->footer(

@@ -1,6 +1,6 @@
 """`dismantle export` and `dismantle book`: other programs can read what is written."""
 import csv
-import importlib.util
+import ctypes.util
 import io
 import json
 import os
@@ -200,13 +200,22 @@ class Robots(WithPlan):
             self.assertIn(weld.get("body1"), names)
             self.assertIn(weld.get("body2", names[0]), names)
 
-    @unittest.skipUnless(importlib.util.find_spec("mujoco"), "MuJoCo is not installed")
+    @unittest.skipUnless(ctypes.util.find_library("mujoco"), "MuJoCo is not installed (Debian: libmujoco-dev)")
     def test_mujoco_loads_the_model(self):
-        import mujoco
         self.export_folder("mjcf")
-        model = mujoco.MjModel.from_xml_path(self.path("out", "mjcf", "assembly.xml"))
-        self.assertEqual(model.nq, 7 * len(self.plan["assembly"]["parts"]))
-        self.assertEqual(model.nkey, 1 + len(self.plan["disassembly"]))
+        library = ctypes.CDLL(ctypes.util.find_library("mujoco"))
+        library.mj_loadXML.restype = ctypes.c_void_p
+        error = ctypes.create_string_buffer(1000)
+        model = library.mj_loadXML(self.path("out", "mjcf", "assembly.xml").encode(), None, error, len(error))
+        self.assertTrue(model, error.value.decode())
+        self.assertEqual(error.value, b"", "no warning either")
+        counts = (ctypes.c_int * 2).from_address(model)  # nq, nv
+        self.assertEqual(list(counts), [7 * len(self.plan["assembly"]["parts"]), 6 * len(self.plan["assembly"]["parts"])])
+        library.mj_makeData.restype = ctypes.c_void_p
+        data = library.mj_makeData(ctypes.c_void_p(model))
+        for key in range(1 + len(self.plan["disassembly"])):
+            library.mj_resetDataKeyframe(ctypes.c_void_p(model), ctypes.c_void_p(data), key)
+            library.mj_forward(ctypes.c_void_p(model), ctypes.c_void_p(data))
 
     def test_ros_has_the_fields_of_its_messages_and_the_poses_of_the_plan(self):
         self.export_folder("ros")
@@ -269,18 +278,62 @@ class Book(WithPlan):
         self.assertEqual(self.result_of(done)["book"], "out/book.html")
         html = self.read("out", "book.html")
         self.assertIn("<h1>A &lt;box&gt;</h1>", html)
-        steps = [int(n) for n in re.findall(r"reverse of</dt><dd>step (\d+) of the disassembly</dd>", html)]
-        self.assertEqual(steps, sorted((s["step"] for s in self.plan["disassembly"]), reverse=True))
+        steps = [int(n) for n in re.findall(r"<span>step (\d+) of", html)]
+        self.assertEqual(steps, list(range(1, 1 + len(self.plan["disassembly"]))))
+        first = {s["moves"][0]["part"] for s in self.plan["disassembly"][-1:]}
+        page = html[html.index('id="step-1"'):html.index('id="step-2"')]
+        self.assertTrue(all(name in page or name.rstrip("_0123456789") in page for name in first), page[:200])
         self.assertEqual(len(re.findall(r"data:image/png;base64,iVBOR", html)), html.count("<img"))
         self.run_program("book", "out/plan.json", "--disassembly", "-o", "apart.html", "-q", status=0)
         apart = [int(n) for n in re.findall(r"<span>step (\d+) of", self.read("apart.html"))]
-        self.assertEqual(apart, steps[::-1])
+        self.assertEqual(apart, steps)
 
     def test_pdf(self):
         self.run_program("book", "out/plan.json", "-o", "box.pdf", "-q", status=0)
         with open(self.path("box.pdf"), "rb") as file:
             data = file.read()
         self.assertTrue(data.startswith(b"%PDF-") and data.rstrip().endswith(b"%%EOF"))
+
+    def test_notes_language_and_revision(self):
+        part = self.plan["disassembly"][0]["moves"][0]["part"]
+        self.write("notes.yaml", f"notes:\n  - {{parts: [{part}], text: \"Grease <it>\"}}\n")
+        self.write("words.yaml", "language: de\nphrases:\n  Contents: Inhalt\n  Put in: Einbauen\n  down: nach unten\n")
+        self.run_program("book", "out/plan.json", "--notes", "notes.yaml", "--language", "words.yaml", "--revision", "B7",
+                         "-o", "b.html", "-q", status=0)
+        html = self.read("b.html")
+        for text in ("Grease &lt;it&gt;", "<dd>B7</dd>", '<html lang="de">', "Einbauen", "nach unten"):
+            self.assertIn(text, html)
+        self.write("none.yaml", "notes:\n  - {parts: [nobody], text: x}\n")
+        self.assert_fails(2, "none.yaml:2:5: error: no step of the plan moves just these parts: nobody", "book",
+                          "out/plan.json", "--notes", "none.yaml", "-q")
+        self.write("wrong.yaml", "language: de\nphrases:\n  step {} of {}: Schritt {}\n")
+        self.assert_fails(2, "wrong.yaml:3:18: error: the translation of 'step {} of {}'", "book", "out/plan.json",
+                          "--language", "wrong.yaml", "-q")
+
+    def test_a_long_name_is_not_cut(self):
+        name = "bracket_" + "of_the_left_side_" * 12 + "end"
+        part = self.plan["disassembly"][0]["moves"][0]["part"]
+        os.rename(self.path("box", part + ".obj"), self.path("box", name + ".obj"))
+        self.run_program("plan", "box", *QUICK, "-o", "long", "-q", status=0)
+        self.run_program("book", "long/plan.json", "-o", "long.html", "-q", status=0)
+        self.assertIn(f"<div class=\"what\">", self.read("long.html"))
+        self.assertGreaterEqual(self.read("long.html").count(name), 3, "bill of materials, contents or page, picture")
+        self.run_program("book", "long/plan.json", "-o", "long.pdf", "-q", status=0)
+        if shutil.which("pdftotext"):
+            text = subprocess.run(["pdftotext", self.path("long.pdf"), "-"], check=True, text=True, stdout=subprocess.PIPE).stdout
+            self.assertGreaterEqual(re.sub(r"\s", "", text).count(name), 2)
+
+    def test_a_film(self):
+        done = self.run_program("export", "out/plan.json", "--format", "gif", "-q")
+        if "built without GIF" in done.stderr:
+            self.skipTest("built without giflib")
+        with open(self.path("out", "assembly.gif"), "rb") as file:
+            data = file.read()
+        self.assertTrue(data.startswith(b"GIF89a") and data.endswith(b";"))
+        without = self.run_program("export", "out/plan.json", "--format", "mp4", "-q", env={"PATH": "/nonexistent"}, status=2)
+        self.assertIn("apt-get install ffmpeg", without.stderr)
+        self.assertFalse(os.path.exists(self.path("out", "assembly.mp4")))
+        self.assert_fails(2, "--disassembly is for films", "export", "out/plan.json", "--format", "dot", "--disassembly")
 
     def test_wrong_use_is_told(self):
         self.assert_fails(2, ".html or .pdf", "book", "out/plan.json", "-o", "book.doc")

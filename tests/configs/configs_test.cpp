@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 std::vector<fs::path> config_files() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(CONFIGS_FOLDER))
-    if (entry.path().extension() == ".yaml" && entry.path().parent_path().filename() != "bench" &&  // suites: tests/benchmark
+    if (entry.path().extension() == ".yaml" && entry.path().parent_path().filename() != "bench" &&      // suites: tests/benchmark
+        entry.path().parent_path().filename() != "languages" &&  // of the book: lib/book
         entry.path().string().find("/presets/") == std::string::npos)
       files.push_back(entry.path());
   std::sort(files.begin(), files.end());

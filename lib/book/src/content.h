@@ -29,6 +29,13 @@ struct ContentsLine {
   bool heading = false;
 };
 
+/// A picture in the box of the parts of a step.
+struct BoxEntry {
+  std::size_t item = 0;             ///< number; 0: a sub-assembly, or what is no item
+  std::size_t count = 1;
+  std::vector<PlacedPart> picture;  ///< one of them
+};
+
 struct BookPage {
   std::string chapter;  ///< "Sub-assembly A"
   bool chapter_begins = false;
@@ -36,9 +43,12 @@ struct BookPage {
   std::vector<std::pair<std::size_t, std::string>> moving;  ///< item number, "2 x bolt"
   std::string verb;                                         ///< "Put in", "Take out", "Move aside"
   std::vector<std::string> motions;                         ///< one line per mover
+  std::vector<std::string> own_notes;                       ///< of the reader of the plan
   std::string warning;                                      ///< not empty if the step is forced
   Facts facts;
   const BookStep* step = nullptr;
+  std::vector<BoxEntry> box;         ///< what the step puts in or takes out
+  std::vector<std::size_t> held{};   ///< parts to hold
 };
 
 struct BookContent {
@@ -50,6 +60,7 @@ struct BookContent {
   std::vector<ContentsLine> job;  ///< fasteners and tools of the whole job, without pages; empty: there are none
   std::vector<ContentsLine> contents;  ///< empty: too few pages for it
   std::vector<BookChapter> chapters;
+  PartNumbers numbers;  ///< by part: of its item
   std::vector<BookPage> pages;  ///< by number; `step` points into `chapters`
 };
 

@@ -1,5 +1,7 @@
 #include "illustrator.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +16,21 @@ namespace {
 
 /// Paler colour for parts that do not move, so that moving parts stand out.
 Eigen::Vector3f pale(const Eigen::Vector3f& c) { return 0.55f * c + Eigen::Vector3f::Constant(0.45f); }
+
+/// Lets the drawing vanish towards the rim: it goes on there. `share` of the height.
+void fade_out(Image& image, double share) {
+  const double rim = share * image.height;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const double d = (0.5 + std::min({x, y, image.width - 1 - x, image.height - 1 - y})) / rim;
+      if (d >= 1) continue;
+      std::uint32_t& p = image.pixels[static_cast<std::size_t>(y) * image.width + x];
+      std::uint32_t faded = 0;
+      for (int shift = 0; shift < 32; shift += 8)  // premultiplied: all channels alike
+        faded |= static_cast<std::uint32_t>(std::lround(d * d * (3 - 2 * d) * ((p >> shift) & 255u))) << shift;
+      p = faded;
+    }
+}
 
 }  // namespace
 
@@ -85,14 +102,40 @@ Camera Illustrator::camera_for(const std::vector<Eigen::Vector3d>& points, const
   return out;
 }
 
-Picture Illustrator::scene(const std::vector<PlacedPart>& parts, const PictureSize& size) const {
+Picture Illustrator::scene(const std::vector<PlacedPart>& parts, const PictureSize& size,
+                           const PartNumbers& numbers) const {
   std::vector<DrawnBody> bodies;
   for (const PlacedPart& placed : parts) {
     bodies.push_back(body_of(placed, false));
     bodies.back().colour = colours_[placed.part];
   }
   const Camera camera = camera_for(corners(parts), axes_of({}), size.width, size.height);
-  return {draw(bodies, camera, size.width, size.height, style_.lines), {}, {}};
+  Picture out{draw(bodies, camera, size.width, size.height, style_.lines), {}, {}};
+  if (!numbers.empty()) {
+    std::vector<std::size_t> all;
+    for (const PlacedPart& placed : parts) all.push_back(placed.part);
+    number_parts(out, bodies, all, camera, numbers, {});
+  }
+  return out;
+}
+
+void Illustrator::number_parts(Picture& picture, const std::vector<DrawnBody>& bodies,
+                               const std::vector<std::size_t>& parts, const Camera& camera, const PartNumbers& numbers,
+                               const std::vector<std::size_t>& held) const {
+  const Image& image = picture.image;
+  const std::vector<Sight> seen = sights(bodies, camera, image.width, image.height);
+  // One circle for all parts of a number, at the one that is seen best.
+  std::map<std::pair<bool, std::size_t>, std::size_t> best;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const std::size_t number = numbers[parts[b]];
+    if (number == 0 || seen[b].pixels < 12) continue;
+    const bool hold = std::ranges::find(held, parts[b]) != held.end();
+    const auto [it, fresh] = best.try_emplace({hold, number}, b);
+    if (!fresh && seen[b].pixels > seen[it->second].pixels) it->second = b;
+  }
+  std::vector<Balloon> wanted;
+  for (const auto& [key, b] : best) wanted.push_back({key.second, seen[b].at, seen[b].at, key.first});
+  if (wanted.size() <= style_.most_balloons) picture.balloons = placed_balloons(std::move(wanted), image);
 }
 
 void Illustrator::ring_specks(Picture& picture, const std::vector<PlacedPart>& parts, const Camera& camera) const {
@@ -149,7 +192,8 @@ Viewpoint Illustrator::best_view(const BookStep& step, const std::vector<PlacedP
   return best;
 }
 
-StepPictures Illustrator::step(const BookStep& step, bool disassembly, double scale) const {
+StepPictures Illustrator::step(const BookStep& step, bool disassembly, double scale, const PartNumbers& numbers,
+                               const std::vector<std::size_t>& held) const {
   const auto scaled = [scale](int pixels) { return static_cast<int>(scale * pixels); };
   const int width = scaled(style_.step.width), height = scaled(style_.step.height);
   const int small_width = scaled(style_.placed.width), small_height = scaled(style_.placed.height);
@@ -205,11 +249,25 @@ StepPictures Illustrator::step(const BookStep& step, bool disassembly, double sc
   all.insert(all.end(), moving.begin(), moving.end());
   Camera camera = camera_for(all, axes, width, height);
   const Camera near = camera_for(moving, axes, width, height);
-  if (camera.scale < style_.smallest * near.scale) {
+  const bool zoomed = camera.scale < style_.smallest * near.scale;
+  if (zoomed) {
     camera = near;
     camera.scale *= 2 * style_.smallest;
   }
-  out.apart.image = draw(bodies_with(away), camera, width, height, style_.lines);
+  const std::vector<DrawnBody> bodies = bodies_with(away);
+  out.apart.image = draw(bodies, camera, width, height, style_.lines);
+  if (zoomed) fade_out(out.apart.image, style_.fade);
+  if (!numbers.empty()) {
+    std::vector<std::size_t> parts;
+    PartNumbers shown(numbers.size(), 0);
+    for (const PlacedPart& p : step.standing) parts.push_back(p.part);
+    for (const PlacedPart& p : away) {
+      parts.push_back(p.part);
+      shown[p.part] = numbers[p.part];
+    }
+    for (const std::size_t part : held) shown[part] = numbers[part];
+    number_parts(out.apart, bodies, parts, camera, shown, held);
+  }
   for (std::size_t m = 0; m < step.movers.size(); ++m) {
     const BookMover& mover = step.movers[m];
     std::vector<Eigen::Vector2d> line;
@@ -229,13 +287,28 @@ StepPictures Illustrator::step(const BookStep& step, bool disassembly, double sc
   return out;
 }
 
-std::string caption_of(const StepPictures& pictures) {
-  std::string out = pictures.view.usual() ? "" : "seen " + pictures.view.words();
-  if (pictures.stretched) out += (out.empty() ? "" : "; ") + std::string("drawn further apart than needed");
+Image Illustrator::moment(const BookStep& step, const std::vector<PlacedPart>& movers, const PictureSize& size) const {
+  std::vector<DrawnBody> bodies;
+  for (const PlacedPart& p : step.standing) bodies.push_back(body_of(p, false));
+  for (const PlacedPart& p : movers) bodies.push_back(body_of(p, true));
+  std::vector<Eigen::Vector3d> whole;  // the same camera in all steps
+  const Aabb& box = assembly_.input_box;
+  for (int c = 0; c < 8; ++c)
+    whole.emplace_back((c & 1) ? box.hi.x() : box.lo.x(), (c & 2) ? box.hi.y() : box.lo.y(), (c & 4) ? box.hi.z() : box.lo.z());
+  Camera camera = camera_for(whole, axes_of({}, frame_.lies(step.up)), size.width, size.height);
+  camera.scale *= style_.film;
+  return draw(bodies, camera, size.width, size.height, style_.lines);
+}
+
+std::string caption_of(const StepPictures& pictures, const BookWords& words) {
+  std::string out;
+  if (!pictures.view.usual()) out = fmt::format(fmt::runtime(words.label("seen {}")), words.text(pictures.view.words()));
+  if (pictures.stretched) out += (out.empty() ? "" : "; ") + words.label("drawn further apart than needed");
   return out;
 }
 
-BookPictures front_pictures(const Plan& plan, const Assembly& assembly, const Illustrator& illustrator) {
+BookPictures front_pictures(const Plan& plan, const Assembly& assembly, const Illustrator& illustrator,
+                            const PartNumbers& numbers) {
   const std::vector<Eigen::Vector3d> offsets = exploded_offsets(plan, assembly);
   std::map<std::string, std::size_t> index_of;
   for (std::size_t i = 0; i < assembly.parts.size(); ++i) index_of.emplace(assembly.parts[i].name, i);
@@ -246,7 +319,7 @@ BookPictures front_pictures(const Plan& plan, const Assembly& assembly, const Il
     exploded.push_back({part, {offsets[i], Eigen::Quaterniond::Identity()}});
   }
   const PictureSize& size = illustrator.style().front;
-  return {illustrator.scene(whole, size), illustrator.scene(exploded, size)};
+  return {illustrator.scene(whole, size), illustrator.scene(exploded, size, numbers)};
 }
 
 }  // namespace dismantle

@@ -10,9 +10,11 @@
 #include "dismantle/geometry/congruent_parts.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/input_frame.h"
+#include "balloons.h"
 #include "instructions.h"
 #include "raster.h"
 #include "style.h"
+#include "words.h"
 
 namespace dismantle {
 
@@ -23,7 +25,11 @@ struct Picture {
   std::vector<std::vector<Eigen::Vector2d>> arrows;
   /// Centre and radius of circles around details that would be overlooked.
   std::vector<std::pair<Eigen::Vector2d, double>> rings;
+  std::vector<Balloon> balloons{};
 };
+
+/// By part: the number that stands in its circle, 0: none.
+using PartNumbers = std::vector<std::size_t>;
 
 /// Corner of the box around the assembly from which the viewer looks at it.
 struct Viewpoint {
@@ -41,7 +47,7 @@ struct StepPictures {
 };
 
 /// "seen from the back left; drawn further apart than needed", or nothing.
-std::string caption_of(const StepPictures& pictures);
+std::string caption_of(const StepPictures& pictures, const BookWords& words);
 
 class Illustrator;
 
@@ -50,23 +56,31 @@ struct BookPictures {
   Picture whole, exploded;
 };
 /// @throws InputError when the plan names a part that the assembly does not have.
-BookPictures front_pictures(const Plan& plan, const Assembly& assembly, const Illustrator& illustrator);
+BookPictures front_pictures(const Plan& plan, const Assembly& assembly, const Illustrator& illustrator,
+                            const PartNumbers& numbers);
 
 class Illustrator {
  public:
   Illustrator(const Assembly& assembly, const Eigen::Vector3d& up);
 
   /// The parts at the given poses, from the usual viewpoint.
-  Picture scene(const std::vector<PlacedPart>& parts, const PictureSize& size) const;
+  Picture scene(const std::vector<PlacedPart>& parts, const PictureSize& size, const PartNumbers& numbers = {}) const;
   /// Two parts as assembled and a ring around the place `at`, input coordinates.
   Picture pair(PartId other, PartId marked, const Eigen::Vector3d& at) const;
   /// `scale`: factor for the style's sizes in pixels.
-  StepPictures step(const BookStep& step, bool disassembly, double scale = 1) const;
+  /// `numbers`: of the parts that move and of those that are `held`.
+  StepPictures step(const BookStep& step, bool disassembly, double scale = 1, const PartNumbers& numbers = {},
+                    const std::vector<std::size_t>& held = {}) const;
+  /// A moment of a step, from the usual viewpoint, with room for parts that leave.
+  Image moment(const BookStep& step, const std::vector<PlacedPart>& movers, const PictureSize& size) const;
   const PictureStyle& style() const { return style_; }
   /// By part: the first part of the same shape.
   const std::vector<geometry::ShapePlacement>& shapes() const { return placements_; }
 
  private:
+  /// `parts`: of the bodies.
+  void number_parts(Picture& picture, const std::vector<DrawnBody>& bodies, const std::vector<std::size_t>& parts,
+                    const Camera& camera, const PartNumbers& numbers, const std::vector<std::size_t>& held) const;
   DrawnBody body_of(const PlacedPart& placed, bool marked) const;
   /// `lies`: how the assembly is turned, from how it is drawn.
   Eigen::Matrix3d axes_of(const Viewpoint& view, const Eigen::Quaterniond& lies = Eigen::Quaterniond::Identity()) const;

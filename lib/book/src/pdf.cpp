@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numbers>
 #include <string>
 
 #include "canvas.h"
@@ -21,8 +22,9 @@ cairo_status_t append_pdf(void* bytes, const unsigned char* data, unsigned lengt
 /// Writes the pages one after the other.
 class PdfPages {
  public:
-  explicit PdfPages(const std::string& title)
-      : surface_(cairo_pdf_surface_create_for_stream(append_pdf, &bytes_, style_.width, style_.height)),
+  PdfPages(const std::string& title, std::string foot)
+      : foot_(std::move(foot)),
+        surface_(cairo_pdf_surface_create_for_stream(append_pdf, &bytes_, style_.width, style_.height)),
         page_(cairo_create(surface_)) {
     // Without a date, so that the same plan gives the same file.
     cairo_pdf_surface_set_metadata(surface_, CAIRO_PDF_METADATA_TITLE, title.c_str());
@@ -70,8 +72,39 @@ class PdfPages {
   /// Draws the picture centred in a box, as large as possible.
   void picture(const Picture& p, double x, double y, double width, double height) {
     const double scale = std::min(width / p.image.width, height / p.image.height);
-    paint_picture(page_, p, x + 0.5 * (width - scale * p.image.width), y + 0.5 * (height - scale * p.image.height),
-                  scale);
+    const double left = x + 0.5 * (width - scale * p.image.width), top = y + 0.5 * (height - scale * p.image.height);
+    paint_picture(page_, p, left, top, scale);
+    for (const Balloon& b : p.balloons) {
+      const Eigen::Vector2d corner(left, top), at = corner + scale * b.at, middle = corner + scale * b.middle;
+      balloon(at, middle, scale * balloon_radius(p.image.width), b);
+    }
+  }
+
+  void balloon(const Eigen::Vector2d& at, const Eigen::Vector2d& middle, double radius, const Balloon& b) {
+    const Eigen::Vector3d& colour = b.held ? style_.held : style_.text;
+    const auto ink = [&] { cairo_set_source_rgb(page_, colour[0], colour[1], colour[2]); };
+    const auto disc = [&](const Eigen::Vector2d& m, double r) {
+      cairo_new_path(page_);
+      cairo_arc(page_, m.x(), m.y(), r, 0, 2 * std::numbers::pi);
+    };
+    ink();
+    cairo_set_line_width(page_, 0.7);
+    cairo_new_path(page_);
+    cairo_move_to(page_, at.x(), at.y());
+    cairo_line_to(page_, middle.x(), middle.y());
+    cairo_stroke(page_);
+    disc(at, 1.2);
+    cairo_fill(page_);
+    disc(middle, radius);
+    cairo_set_source_rgb(page_, 1, 1, 1);
+    cairo_fill_preserve(page_);
+    ink();
+    cairo_stroke(page_);
+    const auto number = layout_of(-1, std::to_string(b.number), (b.number < 100 ? 1.15 : 0.9) * radius, true);
+    int wide = 0, high = 0;
+    pango_layout_get_size(number.get(), &wide, &high);
+    cairo_move_to(page_, middle.x() - 0.5 * wide / PANGO_SCALE, middle.y() - 0.5 * high / PANGO_SCALE);
+    pango_cairo_show_layout(page_, number.get());
   }
 
   void frame(double x, double y, double width, double height) {
@@ -84,6 +117,7 @@ class PdfPages {
   void end_page() {
     const std::string number = std::to_string(++pages_);
     text(style_.width - style_.margin - 30, style_.height - 24, 30, number, 9, style_.soft);
+    if (!foot_.empty()) text(style_.margin, style_.height - 24, 400, foot_, 9, style_.soft, false, 12);
     cairo_show_page(page_);
   }
 
@@ -106,7 +140,7 @@ class PdfPages {
     if (bold) pango_font_description_set_weight(font, PANGO_WEIGHT_BOLD);
     pango_layout_set_font_description(layout.get(), font);
     pango_font_description_free(font);
-    pango_layout_set_width(layout.get(), static_cast<int>(width * PANGO_SCALE));
+    pango_layout_set_width(layout.get(), width < 0 ? -1 : static_cast<int>(width * PANGO_SCALE));
     pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD_CHAR);
     pango_layout_set_text(layout.get(), words.c_str(), static_cast<int>(words.size()));
     return layout;
@@ -118,6 +152,7 @@ class PdfPages {
   }
 
   PageStyle style_;
+  std::string foot_;  // of each page
   std::size_t pages_ = 0;  // that are done
   std::string bytes_;
   cairo_surface_t* surface_;
@@ -156,13 +191,13 @@ std::size_t job_page_count(const BookContent& content, const PageStyle& style) {
 }
 
 /// Two columns of fasteners and tools.
-void job_pages(PdfPages& pdf, const BookContent& content) {
+void job_pages(PdfPages& pdf, const BookContent& content, const BookWords& words) {
   const PageStyle& style = pdf.style();
   const double margin = style.margin, gap = 30, width = 0.5 * (style.width - 2 * margin - gap);
   const std::size_t rows = job_rows(style), per_page = 2 * rows;
   for (std::size_t i = 0; i < content.job.size(); ++i) {
     const std::size_t at = i % per_page;
-    if (at == 0) pdf.text(margin, margin, style.width - 2 * margin, "Fasteners and tools", 19, style.text, true);
+    if (at == 0) pdf.text(margin, margin, style.width - 2 * margin, words.label("Fasteners and tools"), 19, style.text, true);
     const double x = margin + (at < rows ? 0 : width + gap), y = margin + 34 + double(at % rows) * kJobLine;
     const ContentsLine& line = content.job[i];
     pdf.text(x + (line.heading ? 0 : 10), y, width - 10, line.words, 10, style.text, line.heading, kJobLine - 1);
@@ -171,7 +206,7 @@ void job_pages(PdfPages& pdf, const BookContent& content) {
 }
 
 /// Two columns of lines with the numbers of their pages.
-void contents_pages(PdfPages& pdf, const BookContent& content) {
+void contents_pages(PdfPages& pdf, const BookContent& content, const BookWords& words) {
   if (content.contents.empty()) return;
   const PageStyle& style = pdf.style();
   const double margin = style.margin, top = margin + 34, line_height = 15, gap = 30;
@@ -182,9 +217,9 @@ void contents_pages(PdfPages& pdf, const BookContent& content) {
   const std::size_t steps = materials + item_page_count(content, style) + job_page_count(content, style);
   for (std::size_t i = 0; i < lines; ++i) {
     const std::size_t at = i % per_page;
-    if (at == 0) pdf.text(margin, margin, style.width - 2 * margin, "Contents", 19, style.text, true);
+    if (at == 0) pdf.text(margin, margin, style.width - 2 * margin, words.label("Contents"), 19, style.text, true);
     const double x = margin + (at < rows ? 0 : width + gap), y = top + double(at % rows) * line_height;
-    const ContentsLine line = i == 0 ? ContentsLine{"Bill of materials", 0, true} : content.contents[i - 1];
+    const ContentsLine line = i == 0 ? ContentsLine{words.label("Bill of materials"), 0, true} : content.contents[i - 1];
     pdf.text(x + (line.heading ? 0 : 10), y, width - number_width - 10, line.words, 10, style.text, line.heading, 13);
     pdf.text(x + width - number_width, y, number_width, std::to_string(i == 0 ? materials : steps + line.page), 10,
              style.soft);
@@ -192,7 +227,7 @@ void contents_pages(PdfPages& pdf, const BookContent& content) {
   }
 }
 
-void item_pages(PdfPages& pdf, const BookContent& content, const Illustrator& illustrator) {
+void item_pages(PdfPages& pdf, const BookContent& content, const Illustrator& illustrator, const BookWords& words) {
   const PageStyle& style = pdf.style();
   const double margin = style.margin;
   const int columns = style.item_columns, rows = style.item_rows;
@@ -202,7 +237,7 @@ void item_pages(PdfPages& pdf, const BookContent& content, const Illustrator& il
   for (std::size_t i = 0; i < content.items.size(); ++i) {
     const std::size_t at = i % per_page;
     if (at == 0) {
-      pdf.text(margin, margin, 180, "Bill of materials", 19, style.text, true);
+      pdf.text(margin, margin, 180, words.label("Bill of materials"), 19, style.text, true);
       if (!content.base.empty())
         pdf.text(margin + 190, margin + 4, width - 190, content.base, 9.5, style.soft, false, 26);
     }
@@ -226,15 +261,35 @@ void item_pages(PdfPages& pdf, const BookContent& content, const Illustrator& il
   }
 }
 
-void pdf_step(PdfPages& pdf, const BookPage& page, const StepPictures& pictures, bool disassembly) {
+/// The box of the parts of a step, from the left; those without room are left out. Returns its height.
+double pdf_box(PdfPages& pdf, const BookPage& page, const Illustrator& illustrator, double x, double y, double width) {
+  if (page.box.empty()) return 0;
+  const PageStyle& style = pdf.style();
+  const std::size_t room = static_cast<std::size_t>(width / style.box_width), n = std::min(room, page.box.size());
+  pdf.frame(x, y, double(n) * style.box_width, style.box_height);
+  for (std::size_t k = 0; k < n; ++k) {
+    const BoxEntry& entry = page.box[k];
+    const double left = x + double(k) * style.box_width;
+    pdf.picture(illustrator.scene(entry.picture, illustrator.style().item), left + 6, y + 4, style.box_width - 12,
+                style.box_height - 22);
+    const std::string words = entry.item == 0 ? fmt::format("{} ×", entry.count)
+                                              : fmt::format("({})  {} ×", entry.item, entry.count);
+    pdf.text(left + 8, y + style.box_height - 16, style.box_width - 10, words, 10, style.text, true, 13);
+  }
+  return style.box_height + 6;
+}
+
+void pdf_step(PdfPages& pdf, const BookPage& page, const StepPictures& pictures, const Illustrator& illustrator,
+              const BookWords& words, bool disassembly) {
   const PageStyle& style = pdf.style();
   const double margin = style.margin;
   const double width = style.width - 2 * margin, column = 0.33 * width, large = width - column - 18;
   pdf.text(margin, margin - 14, 0.7 * width, page.chapter, 10.5, style.soft);
-  pdf.text(style.width - margin - 96, margin - 14, 96, fmt::format("step {} of {}", page.number, page.count), 10.5,
+  pdf.text(style.width - margin - 96, margin - 14, 96, fmt::format(fmt::runtime(words.label("step {} of {}")), page.number, page.count), 10.5,
            style.soft);
-  pdf.picture(pictures.apart, margin, margin + 8, large, style.height - 2 * margin - 24);
-  if (const std::string caption = caption_of(pictures); !caption.empty())
+  const double box = pdf_box(pdf, page, illustrator, margin, margin + 8, large);
+  pdf.picture(pictures.apart, margin, margin + 8 + box, large, style.height - 2 * margin - 24 - box);
+  if (const std::string caption = caption_of(pictures, words); !caption.empty())
     pdf.text(margin, style.height - margin - 12, large, caption, 10, style.soft);
 
   const double x = style.width - margin - column, placed_height = 150,
@@ -242,17 +297,19 @@ void pdf_step(PdfPages& pdf, const BookPage& page, const StepPictures& pictures,
   double y = margin + 6;
   y += pdf.text(x, y, column, std::to_string(page.number), 36, style.text, true) + 2;
   y += pdf.text(x, y, column, page.verb + ":", 13, style.text) + 1;
-  for (const auto& [item, words] : page.moving) {
+  for (const auto& [item, name] : page.moving) {
     if (y + 16 > bottom) break;
-    y += pdf.text(x, y, column, item == 0 ? words : fmt::format("({}) {}", item, words), 13, style.text, true, 34) + 1;
+    y += pdf.text(x, y, column, item == 0 ? name : fmt::format("({}) {}", item, name), 13, style.text, true, 34) + 1;
   }
   for (const std::string& motion : page.motions) {
     if (y + 16 > bottom) break;
     y += pdf.text(x, y, column, motion, 12, style.accent, true, 64) + 4;
     if (!page.warning.empty()) y += pdf.text(x, y, column, page.warning, 12, style.forced, true, 64) + 4;
   }
+  for (const std::string& note : page.own_notes)
+    if (y + 16 <= bottom) y += pdf.text(x, y, column, note, 11, style.held, false, std::min(90.0, bottom - y)) + 4;
   pdf.facts(x, y + 2, column, page.facts, 9.5, bottom);
-  pdf.text(x, bottom + 6, column, disassembly ? "before" : "after", 9.5, style.soft);
+  pdf.text(x, bottom + 6, column, words.label(disassembly ? "before" : "after"), 9.5, style.soft);
   pdf.frame(x, bottom + 22, column, placed_height);
   pdf.picture(pictures.placed, x + 4, bottom + 25, column - 8, placed_height - 6);
   pdf.end_page();
@@ -262,15 +319,17 @@ void pdf_step(PdfPages& pdf, const BookPage& page, const StepPictures& pictures,
 
 std::string book_pdf(const Plan& plan, const Assembly& assembly, const BookOptions& options) {
   const Illustrator illustrator(assembly, options.frame.up);
+  const BookWords words(options.language, options.phrases);
   const BookContent content = book_content(plan, assembly, options, illustrator.shapes());
-  PdfPages pdf(content.title);
-  title_page(pdf, content, front_pictures(plan, assembly, illustrator));
-  contents_pages(pdf, content);
-  item_pages(pdf, content, illustrator);
-  job_pages(pdf, content);
+  PdfPages pdf(content.title, options.revision.empty() ? "" : content.title + " · " + options.revision);
+  title_page(pdf, content, front_pictures(plan, assembly, illustrator, content.numbers));
+  contents_pages(pdf, content, words);
+  item_pages(pdf, content, illustrator, words);
+  job_pages(pdf, content, words);
   for (const BookPage& page : content.pages) {
     options.on_page(page.number, page.count);
-    pdf_step(pdf, page, illustrator.step(*page.step, options.disassembly, 1.5), options.disassembly);
+    const StepPictures pictures = illustrator.step(*page.step, options.disassembly, 1.5, content.numbers, page.held);
+    pdf_step(pdf, page, pictures, illustrator, words, options.disassembly);
   }
   return pdf.finish();
 }

@@ -152,6 +152,28 @@ Image draw(const std::vector<DrawnBody>& bodies, const Camera& camera, int width
   return out;
 }
 
+std::vector<Sight> sights(const std::vector<DrawnBody>& bodies, const Camera& camera, int width, int height) {
+  const Layer front = render(bodies, camera, width, height, true);
+  std::vector<Sight> out(bodies.size());
+  std::vector<Eigen::Vector2d> sum(bodies.size(), Eigen::Vector2d::Zero());
+  std::vector<double> least(bodies.size(), std::numeric_limits<double>::infinity());
+  const auto each = [&](auto&& f) {
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        if (const std::int32_t b = front.body[front.at(x, y)]; b >= 0)
+          f(static_cast<std::size_t>(b), Eigen::Vector2d(x + 0.5, y + 0.5));
+  };
+  each([&](std::size_t b, const Eigen::Vector2d& p) {
+    ++out[b].pixels;
+    sum[b] += p;
+  });
+  each([&](std::size_t b, const Eigen::Vector2d& p) {
+    const double distance = (p - sum[b] / double(out[b].pixels)).squaredNorm();
+    if (distance < least[b]) least[b] = distance, out[b].at = p;
+  });
+  return out;
+}
+
 std::size_t visible_pixels(const std::vector<DrawnBody>& bodies, const Camera& camera, int width, int height) {
   const Layer front = render(bodies, camera, width, height, true);
   return static_cast<std::size_t>(std::ranges::count_if(

@@ -45,6 +45,14 @@ struct Image {
 Image draw(const std::vector<DrawnBody>& bodies, const Camera& camera, int width, int height,
            const LineStyle& style = {});
 
+/// Where a body is seen.
+struct Sight {
+  std::size_t pixels = 0;
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< the pixel of it that is nearest to the middle of all
+};
+/// By body. None of it is hidden by others if `pixels` is that of the body alone.
+std::vector<Sight> sights(const std::vector<DrawnBody>& bodies, const Camera& camera, int width, int height);
+
 /// Number of pixels in which a marked body is the front one. Smaller pictures are faster.
 std::size_t visible_pixels(const std::vector<DrawnBody>& bodies, const Camera& camera, int width, int height);
 

@@ -26,6 +26,10 @@ struct PictureStyle {
   PictureSize placed{360, 240};     ///< the parts in their place
   PictureSize item{200, 140};       ///< one part in the bill of materials
   PictureSize front{520, 420};      ///< the title page
+  PictureSize box{120, 84};         ///< one part in the box of the parts of a step
+  std::size_t most_balloons = 40;   ///< more are not legible
+  double fade = 0.09;               ///< rim of a picture that shows a detail, relative to its height
+  double film = 0.62;               ///< size of the assembly in a film, relative to a picture that it fills
   double margin = 1.12;             ///< size of the picture, relative to the bodies shown
   double smallest = 0.14;           ///< smallest share of the picture that the moving parts fill
   double furthest = 1.1;            ///< largest distance of a part from its place, relative to the fixed parts
@@ -44,6 +48,8 @@ struct PageStyle {
   double margin = 40;
   double smallest_type = 5.5;           ///< of text that would not fit otherwise
   int item_columns = 5, item_rows = 3;  ///< of a page of the bill of materials
+  double box_width = 92, box_height = 74;  ///< a part in the box of the parts of a step
+  Eigen::Vector3d held{0.05, 0.48, 0.58};  ///< circles at parts to hold
   Eigen::Vector3d text{0.13, 0.15, 0.19}, soft{0.4, 0.44, 0.52}, accent{0.76, 0.25, 0.05}, forced{0.8, 0, 0};
 };
 

@@ -12,72 +12,10 @@
 #include "dismantle/errors.h"
 #include "dismantle/testing/shapes.h"
 #include "instructions.h"
+#include "row_plan.h"
 
 namespace dismantle {
 namespace {
-
-/// Boxes of several sizes in a row, in input units of 0.1 and away from the origin.
-Assembly row_of(std::size_t count) {
-  Assembly a;
-  a.normalization = {10, {5, 6, 7}};
-  for (std::size_t i = 0; i < count; ++i) {
-    Part part;
-    part.id = static_cast<PartId>(i);
-    part.name = "p" + std::to_string(i);
-    part.file = part.name + ".obj";
-    const double x = 3.0 * double(i), edge = 1 + 0.25 * double(i % 3);
-    part.mesh = part.surface = std::make_shared<Mesh>(shapes::box({x, 0, 0}, {x + edge, edge, edge}));
-    for (const auto& v : part.mesh->vertices) a.input_box.extend(a.normalization.to_input(v));
-    a.parts.push_back(part);
-  }
-  return a;
-}
-
-std::vector<Pose> path_from(const Pose& begin, const Pose& end, std::size_t n) {
-  std::vector<Pose> out;
-  for (std::size_t i = 0; i < n; ++i) out.push_back(screw_interpolate(begin, end, double(i) / double(n - 1)));
-  return out;
-}
-
-/// A plan that takes groups apart at random: each step moves some parts of a group away as a whole, rigidly.
-Plan random_plan(const Assembly& assembly, std::mt19937& random) {
-  Plan plan;
-  plan.assembly.source = "row/";
-  plan.assembly.scale = assembly.normalization.scale;
-  plan.assembly.center = assembly.normalization.center;
-  plan.assembly.box = assembly.input_box;
-  for (const Part& part : assembly.parts) plan.assembly.parts.push_back({part.id, part.name, part.file});
-  std::vector<std::vector<std::size_t>> groups(1);
-  for (std::size_t i = 0; i < assembly.parts.size(); ++i) groups[0].push_back(i);
-  std::map<std::size_t, Pose> now;
-  std::uniform_real_distribution<double> any(-1, 1);
-  while (true) {
-    std::vector<std::size_t> open;
-    for (std::size_t g = 0; g < groups.size(); ++g)
-      if (groups[g].size() > 1) open.push_back(g);
-    if (open.empty()) break;
-    auto& group = groups[open[random() % open.size()]];
-    std::ranges::shuffle(group, random);
-    const std::size_t count = 1 + random() % (group.size() - 1);
-    const Pose away{{any(random), any(random), any(random)},
-                    Eigen::Quaterniond(2, any(random), any(random), any(random)).normalized()};
-    PlanStep step;
-    step.step = static_cast<unsigned>(plan.disassembly.size() + 1);
-    step.separates.emplace_back();
-    std::vector<std::size_t> out(group.end() - static_cast<std::ptrdiff_t>(count), group.end());
-    group.resize(group.size() - count);
-    for (const std::size_t i : out) {
-      step.separates.back().push_back(assembly.parts[i].name);
-      step.moves.push_back({assembly.parts[i].name, {}});
-      for (const Pose& p : path_from(Pose{}, away, 5)) step.moves.back().poses.push_back(p * now[i]);
-      now[i] = step.moves.back().poses.back();
-    }
-    groups.push_back(std::move(out));
-    plan.disassembly.push_back(std::move(step));
-  }
-  plan.status = PlanStatus::complete;
-  return plan;
-}
 
 TEST(Instructions, EachPartJoinsOnceAndEndsWhereItBelongs) {
   std::mt19937 random(11);
@@ -315,6 +253,49 @@ TEST(Book, AProductThatIsKeptTogetherIsOneItem) {
   EXPECT_NE(html.find("<strong>motor</strong>"), std::string::npos);
   EXPECT_NE(html.find("<span class=\"badge\">1</span>motor 1</div>"), std::string::npos) << "the page has its number";
   EXPECT_EQ(html.find("not listed"), std::string::npos);
+}
+
+TEST(Book, CirclesNumberWhatMovesAndWhatIsHeld) {
+  std::mt19937 random(21);
+  const Assembly assembly = row_of(5);
+  Plan plan = random_plan(assembly, random);
+  std::size_t moved = 0;
+  for (const auto& chapter : instructions(plan, assembly, false)) moved += chapter.steps.size();
+  const std::string html = book_html(plan, assembly, {});
+  EXPECT_EQ(count_of(html, "<div class=\"box\">"), moved) << "a box of parts on each page";
+  EXPECT_GE(count_of(html, "<svg"), moved) << "and circles in its picture";
+  EXPECT_EQ(count_of(html, "<g class=\"held\">"), 0u);
+  std::string other;  // a part that the last step of the disassembly leaves
+  for (const Part& part : assembly.parts)
+    if (part.name != plan.disassembly[0].moves[0].part) other = part.name;
+  for (const PlanMove& move : plan.disassembly[0].moves) ASSERT_NE(move.part, other);
+  plan.disassembly[0].checks.push_back(
+      {.type = "gravity", .notes = {{"hold", "Hold it.", R"({"hold": [{"part": ")" + other + R"("}]})"}}});
+  const std::string held = book_html(plan, assembly, {});
+  EXPECT_EQ(count_of(held, "<g class=\"held\">"), 1u);
+  EXPECT_NE(held.find("<dt>hold</dt><dd>Hold it.</dd>"), std::string::npos);
+}
+
+TEST(Book, HasARevisionNotesAndALanguage) {
+  std::mt19937 random(22);
+  const Assembly assembly = row_of(3);
+  const Plan plan = random_plan(assembly, random);
+  BookOptions options;
+  options.revision = "B <2>";
+  BookNote note{{}, "Grease & wipe"};
+  for (const PlanMove& move : plan.disassembly[0].moves) note.parts.insert(note.parts.begin(), move.part);
+  options.notes = {note, {{"p0", "p1", "p2"}, "of no step"}};
+  options.language = "de";
+  options.phrases = {{"step {} of {}", "Schritt {} von {}"}, {"Bill of materials", "Stückliste"}};
+  const std::string html = book_html(plan, assembly, options);
+  EXPECT_NE(html.find("<html lang=\"de\">"), std::string::npos);
+  EXPECT_NE(html.find("<h2>Stückliste</h2>"), std::string::npos);
+  EXPECT_NE(html.find("<span>Schritt 1 von 2</span>"), std::string::npos);
+  EXPECT_NE(html.find("<dt>revision</dt><dd>B &lt;2&gt;</dd>"), std::string::npos);
+  EXPECT_EQ(count_of(html, "Grease &amp; wipe"), 1u);
+  EXPECT_EQ(count_of(html, "of no step"), 0u);
+  options.phrases["step {} of {}"] = "Schritt {}";
+  EXPECT_THROW(book_html(plan, assembly, options), Error);
 }
 
 TEST(Book, APlanWithoutStepsIsRefused) {
