@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "dismantle/geometry/edge_checker.h"
 #include "stopwatch.h"
 
 namespace dismantle {
@@ -66,7 +67,7 @@ class TimedSearch {
 }  // namespace
 
 /// Path checker of one attempt.
-class AttemptRunner::Checker final : public PathChecker {
+class AttemptRunner::Checker final : public PathChecker, public geometry::EdgeChecker {
  public:
   /// All references must outlive it. `context` interrupts a running check.
   Checker(const AttemptRunner& runner, const Attempt& attempt, const RunContext& context)
@@ -95,6 +96,26 @@ class AttemptRunner::Checker final : public PathChecker {
       if (!answer.reason.empty()) return answer;
     }
     answer.verified = accept(std::move(written.path), motion.max_penetration, released);
+    return answer;
+  }
+
+  PathCheck check_edge(const std::vector<Pose>& from, const std::vector<Pose>& to) const override {
+    PathCheck answer;
+    const auto usable = [&](const std::vector<Pose>& poses) {
+      return poses.size() == attempt_.moving.size() && std::all_of(poses.begin(), poses.end(), [](const Pose& p) {
+               return p.t.allFinite() && p.q.coeffs().allFinite() && std::abs(p.q.norm() - 1) < 1e-6;
+             });
+    };
+    if (!usable(from) || !usable(to)) {
+      answer.reason = "an edge needs one finite pose for each moving part at both ends";
+      return answer;
+    }
+    NormalizedPath edge;
+    edge.path = {from, to};
+    edge.way = edge.given_way = {0, 1};
+    const MotionCheck motion =
+        runner_.verifier_.check_motion(ids_of(attempt_.moving), attempt_.fixed, edge.path, context_);
+    if (!motion.valid) runner_.explain(motion, edge, answer);
     return answer;
   }
 

@@ -5,19 +5,26 @@
 #include <utility>
 
 #include "dismantle/executor.h"
+#include "dismantle/geometry/edge_checker.h"
 
 namespace dismantle::portfolio {
 namespace {
 
 /// Pauses the speculative searches while a candidate path of the first search is verified: if it is accepted, they are
 /// not needed.
-class PausingChecker final : public PathChecker {
+class PausingChecker final : public PathChecker, public geometry::EdgeChecker {
  public:
   /// Both arguments outlive this.
   PausingChecker(Executor& executor, const PathChecker& checker) : executor_(executor), checker_(checker) {}
   PathCheck check(const Path& path) const override {
     const Executor::PauseScope pause(executor_);
     return checker_.check(path);
+  }
+  PathCheck check_edge(const std::vector<Pose>& from, const std::vector<Pose>& to) const override {
+    if (const geometry::EdgeChecker* edges = geometry::edge_checker(checker_)) return edges->check_edge(from, to);
+    PathCheck answer;
+    answer.reason = "this checker checks whole paths only";
+    return answer;
   }
 
  private:
