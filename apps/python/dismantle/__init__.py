@@ -12,6 +12,7 @@ from ._core import (Answer, Assembly, Capabilities, Certificate, Contacts, Force
                     PathCheck, PathQuery, PathResult, Plan, RunContext, Simulator, Step, StepNote, StepOverlap, StepQuestion, StepReport,
                     Unsolved, Verdict, Verification, World, Worlds, __version__, interpolate, load_plugin, plugin_problems, samples)
 from ._bench import bench, read_results
+from ._contract import check_contract
 from ._errors import ConfigError, Diagnostic, Error, InputError, PluginError
 from ._planners import (Parameter, PathPlanner, SequencePlanner, StepCheck, StepVerdict, path_planner, sequence_planner,
                         step_check)
@@ -23,7 +24,7 @@ __all__ = [
     "InputError", "Objective", "ObjectiveItem", "Oracle", "Outcome", "Overlap", "Parameter", "Part", "PathCheck",
     "PathPlanner", "PathQuery", "PathResult", "Plan", "PluginError", "RunContext", "SequencePlanner", "Simulator",
     "Step", "StepCheck", "StepNote", "StepOverlap", "StepQuestion", "StepReport", "StepVerdict", "Unsolved", "Verdict",
-    "Verification", "World", "Worlds", "bench", "compose", "describe", "interpolate", "inverse", "load_plugin", "matrix",
+    "Verification", "World", "Worlds", "bench", "check_contract", "compose", "describe", "interpolate", "inverse", "load_plugin", "matrix",
     "path_planner", "plugin_problems", "plugins", "pose_of_matrix", "read_results", "resolved_config", "run", "samples",
     "sequence_planner", "step_check", "transform", "verify",
 ]

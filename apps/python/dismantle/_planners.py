@@ -54,6 +54,8 @@ class PathPlanner:
 class SequencePlanner:
     """Base of sequence planners: in which order do the parts come out? The decorator @sequence_planner registers a class."""
 
+    keeps_constraints = False  # True: it follows oracle.constraints; else a run with constraints is refused
+
     def plan(self, assembly, oracle, context):
         """Asks the Oracle and books removals with oracle.remove(answer). Returns None, or the unsuccessful answers that say
         why parts are left. What it raises ends the search; the steps that were booked stay. After a forced step (run.force) it is

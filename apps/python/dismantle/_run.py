@@ -3,28 +3,30 @@ import json
 import os
 
 from . import _core
+from ._notebook import remember
 from ._settings import settings
 
 
 def _load(path, config=None, set=None):
     """Reads and prepares an assembly: a folder of mesh files (one part each), or one file with several parts. Same rules and
     configuration as `dismantle plan`. Raises InputError, ConfigError."""
-    return _core.Assembly._load(os.fspath(path), *settings(config, set))
+    return remember(_core.Assembly._load(os.fspath(path), *settings(config, set)), _load, os.path.abspath(path), config, set)
 
 
 def _from_meshes(meshes, config=None, set=None, unit=""):
     """An assembly of arrays. meshes: dict of part name to (vertices (N, 3) float, triangles (F, 3) int, counter-clockwise seen
     from outside), in assembled position. unit: 'mm', 'inch', 'm', or empty."""
-    return _core.Assembly._from_meshes(dict(meshes), unit, *settings(config, set))
+    return remember(_core.Assembly._from_meshes(dict(meshes), unit, *settings(config, set)), _from_meshes, dict(meshes), config, set, unit)
 
 
 def _from_sample(name, config=None, set=None, **parameters):
     """A sample that the project makes itself, as `dismantle sample` does; see samples(). parameters: those of the sample."""
-    return _core.Assembly._from_sample(name, parameters, *settings(config, set))
+    return remember(_core.Assembly._from_sample(name, parameters, *settings(config, set)), _from_sample, name, config, set, **parameters)
 
 
 for _function, _name in ((_load, "load"), (_from_meshes, "from_meshes"), (_from_sample, "from_sample")):
     _function.__name__, _function.__qualname__ = _name, f"Assembly.{_name}"
+    _function.__module__ = "dismantle"  # where pickle finds it
     setattr(_core.Assembly, _name, staticmethod(_function))
 
 

@@ -261,6 +261,9 @@ void bind_assembly(py::module_& m) {
           "Input unit ('mm', 'inch', 'm'); empty when the files do not say.")
       .def_property_readonly(
           "source", [](const HeldAssembly& self) { return self.assembly->source; }, "What it was loaded from.")
+      .def_property_readonly(
+          "sha256", [](const HeldAssembly& self) { return self.assembly->sha256; },
+          "SHA-256 of its files, or of its names and arrays.")
       .def(
           "poses_to_input",
           [](const HeldAssembly& self, const Array& poses) {

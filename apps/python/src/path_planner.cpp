@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <map>
 #include <optional>
 #include <stdexcept>
 
 #include "arrays.h"
 #include "bindings.h"
 #include "dismantle/errors.h"
+#include "dismantle/geometry/edge_checker.h"
 #include "python_type.h"
 #include "run_view.h"
 #include "world.h"
@@ -43,6 +45,7 @@ class QueryView {
   Outcome why_stopped() const { return context_->cancel.cancelled() ? Outcome::cancelled : Outcome::timeout; }
   const Work& work() const { return *work_; }
   std::uint64_t refused = 0;
+  std::map<std::string, double> counts;  ///< the planner's own
 
   std::shared_ptr<HeldWorld> world(const std::string& space) {
     const PathQuery& q = query();
@@ -68,6 +71,14 @@ class QueryView {
     }
     if (!answer.accepted()) ++refused;
     return answer;
+  }
+
+  PathCheck check_edge(const Array& from, const Array& to) {
+    const geometry::EdgeChecker* edges = geometry::edge_checker(query().checker);
+    if (edges == nullptr) throw Error("this query checks whole paths only");
+    const std::vector<Pose> begin = poses_of(from, "start"), end = poses_of(to, "end");
+    py::gil_scoped_release release;
+    return edges->check_edge(begin, end);
   }
 
  private:
@@ -139,6 +150,7 @@ class PythonPathPlanner final : public FunctionPathPlanner {
     if (result.stats.steps == 0) result.stats.steps = view->work().steps;
     if (result.stats.state_checks == 0) result.stats.state_checks = view->work().state_checks;
     if (result.stats.refused == 0) result.stats.refused = view->refused;
+    for (const auto& [name, value] : view->counts) result.stats.extra[name] += value;
     if (result.stats.cost == 0) result.stats.cost = static_cast<double>(view->spent());
     view->close();
     run->close();
@@ -254,6 +266,17 @@ void bind_path_planner(py::module_& m) {
            "second.")
       .def("world", &QueryView::world, py::arg("space") = "rigid",
            "A World of these parts. space: 'rigid' or 'translation'.")
+      .def(
+          "count", [](QueryView& v, const std::string& name, double by) { v.query(), v.counts[name] += by; },
+          py::arg("name"), py::arg("by") = 1.0,
+          "Adds to a count of the planner's own: Plan.info['planner_counts'], and a column counts.NAME of bench().")
+      .def(
+          "is_free",
+          [](QueryView& v, const Array& from, const Array& to) { return geometry::is_free(v.check_edge(from, to)); },
+          py::arg("start"), py::arg("end"),
+          "The verifier's continuous check of the screw motion between two lists of poses (M, 7), wherever it begins "
+          "and "
+          "ends: for the edges of trees and roadmaps.")
       .def("check", &QueryView::check, py::arg("path"),
            "Shows a path to the verifier: (K, M, 7), or (K, 7) for one moving part; returns a PathCheck. Between two "
            "instants each part moves by the joining screw motion, so a straight line needs its two ends only.");

@@ -30,8 +30,11 @@ using PlanClass = py::class_<HeldPlan>;
 /// Reading and writing, and texts about the plan.
 void bind_plan_texts(PlanClass& plan) {
   plan.def_static(
-          "read", [](const std::filesystem::path& file) { return HeldPlan{read_plan(file), {}}; }, py::arg("path"),
-          "Reads a plan.json. Raises InputError with the place of what is wrong.")
+          "read",
+          [](const std::filesystem::path& file) {
+            return HeldPlan{read_plan(file), {}};
+          },
+          py::arg("path"), "Reads a plan.json. Raises InputError with the place of what is wrong.")
       .def_static(
           "from_json",
           [](const std::string& text) {
@@ -55,6 +58,12 @@ void bind_plan_texts(PlanClass& plan) {
           "Writes the animation as glTF binary, a node for each part, for viewers and Blender. assembly: the one that "
           "the "
           "plan is for.")
+      .def(
+          "page", [](const HeldPlan& self, const HeldAssembly& loaded) { return page_of(self.plan, *loaded.assembly); },
+          py::arg("assembly"),
+          "The page that shows the plan in a browser, one HTML text that needs no network. assembly: the one that the "
+          "plan is "
+          "for. Raises Error when this build has no viewer.")
       .def(
           "explain",
           [](const HeldPlan& self, const std::string& part) { return explain_text(explain(self.plan, {}, part)); },

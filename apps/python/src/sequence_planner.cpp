@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 
 #include "arrays.h"
@@ -37,6 +38,7 @@ class SequenceView {
         observer_(&observer),
         context_(&context),
         open_(std::make_shared<bool>(true)),
+        constraints_(&query.constraints),
         disassembly_(assembly.parts.size(), query.start) {
     for (const auto& group : query.start)
       for (const PlacedPart& p : group) left_.push_back(p.part);
@@ -54,6 +56,19 @@ class SequenceView {
     return present;
   }
   const std::vector<Removal>& removals() const { return removals_; }
+  std::map<std::string, double>& counts() { return counts_; }
+  const std::map<std::string, double>& counts() const { return counts_; }
+  const Constraints& constraints() const {
+    check_open();
+    return *constraints_;
+  }
+  /// Do the constraints let these parts leave the rest of their group?
+  bool may_leave(const py::object& parts) const {
+    const std::vector<PlacedPart> leaving = placed(parts, "moving");
+    const std::vector<PlacedPart> rest = without(disassembly_.around(leaving.front().part), leaving);
+    return dismantle::may_leave(ids_of(leaving), ids_of(rest), constraints());
+  }
+  bool is_done() const { return fulfilled(disassembly_, constraints()); }
   const Assembly& assembly() const { return *assembly_; }
   RunContext& context() const { return *context_; }
 
@@ -157,9 +172,11 @@ class SequenceView {
   RunContext* context_;
   std::shared_ptr<bool> open_;
   std::vector<PartId> left_;  // not removed yet
+  const Constraints* constraints_;
   Disassembly disassembly_;
   std::size_t steps_ = 0;  // when all are apart
   std::vector<Removal> removals_;
+  std::map<std::string, double> counts_;
 };
 
 /// `returned`: None, or answers about remaining parts.
@@ -167,6 +184,7 @@ SequenceResult result_of(const py::object& returned, const SequenceView& view) {
   SequenceResult result;
   result.removals = view.removals();
   result.remaining = view.left();
+  result.counts = view.counts();
   const RunContext& context = view.context();
   if (!returned.is_none())
     for (const py::handle item : py::cast<py::iterable>(returned)) {
@@ -180,9 +198,7 @@ SequenceResult result_of(const py::object& returned, const SequenceView& view) {
                                      answer.attempt.moving.size() == 1 ? answer.result.best_pose : std::vector<Pose>{},
                                      answer.result.message, answer.certificate});
     }
-  const std::vector<std::vector<PartId>> groups = view.groups();
-  const bool together = std::any_of(groups.begin(), groups.end(), [](const auto& g) { return g.size() > 1; });
-  if (!together) {
+  if (view.is_done()) {
     result.outcome = Outcome::solved;
     result.unsolved.clear();
   } else {
@@ -198,7 +214,12 @@ SequenceResult result_of(const py::object& returned, const SequenceView& view) {
 
 class PythonSequencePlanner final : public SequencePlanner {
  public:
-  PythonSequencePlanner(PythonType type, Held object) : type_(std::move(type)), object_(std::move(object)) {}
+  PythonSequencePlanner(PythonType type, Held object) : type_(std::move(type)), object_(std::move(object)) {
+    py::gil_scoped_acquire lock;
+    keeps_constraints_ = py::cast<bool>(py::bool_(object_->attr("keeps_constraints")));
+  }
+
+  SequencePlannerTraits traits() const noexcept override { return {.keeps_constraints = keeps_constraints_}; }
 
   SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override {
@@ -224,6 +245,7 @@ class PythonSequencePlanner final : public SequencePlanner {
  private:
   PythonType type_;
   Held object_;
+  bool keeps_constraints_ = false;
 };
 
 }  // namespace
@@ -282,6 +304,29 @@ void bind_sequence_planner(py::module_& m) {
            "Checks a path (K, M, 7) that the caller has found, in place of a search; returns an Answer. placement: the "
            "parts are "
            "moved and stay in their group.")
+      .def(
+          "count", [](SequenceView& v, const std::string& name, double by) { v.check_open(), v.counts()[name] += by; },
+          py::arg("name"), py::arg("by") = 1.0,
+          "Adds to a count of the planner's own: Plan.info['sequence_counts'], and a column counts.NAME of bench().")
+      .def_property_readonly(
+          "constraints",
+          [](const SequenceView& v) {
+            const Constraints& c = v.constraints();
+            py::dict out;
+            out["base"] = c.base;
+            out["together"] = c.together;
+            out["before"] = c.before;
+            out["target"] = c.target ? py::object(py::int_(*c.target)) : py::object(py::none());
+            return out;
+          },
+          "The user's constraints, for classes with keeps_constraints: dict of base (numbers of parts that are never "
+          "moved), "
+          "together (lists of numbers), before (pairs: the second leaves only after the first), target (a number or "
+          "None).")
+      .def("may_leave", &SequenceView::may_leave, py::arg("moving"),
+           "Do the constraints let these parts leave the rest of their group?")
+      .def_property_readonly("is_done", &SequenceView::is_done,
+                             "True when all is apart that the constraints do not keep together, or the target is out.")
       .def("prefetch", &SequenceView::prefetch, py::arg("moves"), py::arg("max_depth") = 0,
            "Hint: attempts with these groups of moving parts will probably be asked for, in this order, all others of "
            "their "

@@ -1,3 +1,5 @@
+import pickle
+
 import numpy as np
 import pytest
 
@@ -100,3 +102,20 @@ def test_what_cannot_be_used_is_named(tmp_path):
         dismantle.Assembly.from_sample("stacked_box")["plate_"]
     with pytest.raises(ValueError, match="did you mean 'stacked_box'"):
         dismantle.Assembly.from_sample("staked_box")
+
+
+def test_assemblies_can_be_pickled(tmp_path, peg):
+    made = dismantle.Assembly.from_meshes({"a": cube([0, 0, 0], [1, 1, 1]), "b": cube([0, 0, 1], [1, 1, 2])}, unit="mm")
+    peg.write(tmp_path / "peg")
+    loaded = dismantle.Assembly.load(tmp_path / "peg", set={"assembly.size": 5})
+    for assembly in (peg, made, loaded):
+        again = pickle.loads(pickle.dumps(assembly))
+        assert again.names == assembly.names and again.sha256 == assembly.sha256 and again.scale == assembly.scale
+        assert again.unit == assembly.unit and again.source == assembly.source
+        for a, b in zip(assembly, again):
+            assert a.vertices.tobytes() == b.vertices.tobytes()
+    kept = pickle.dumps(loaded)
+    for file in (tmp_path / "peg").glob("*.obj"):
+        file.write_text(file.read_text() + "\n# another one\n")
+    with pytest.raises(dismantle.InputError, match="have changed"):
+        pickle.loads(kept)

@@ -1,4 +1,5 @@
 import copy
+import html
 import json
 import pickle
 import re
@@ -184,3 +185,13 @@ def test_the_animation_is_gltf(box, peg, tmp_path):
     assert {n["name"] for n in content["nodes"]} >= set(box.names)
     with pytest.raises(dismantle.InputError):
         plan.write_glb(tmp_path / "other.glb", peg)
+
+
+def test_a_plan_has_a_page_and_a_table_for_notebooks(box):
+    plan = dismantle.run(box, seed=1)
+    page = plan.page(box)
+    assert page.lower().startswith("<!doctype html>")
+    shown = plan.show(box, height=300)._repr_html_()
+    assert shown.startswith("<iframe srcdoc=") and "height: 300px" in shown and html.escape(page) in shown
+    table = plan._repr_html_()
+    assert table.count("<tr>") == len(plan.steps) + 1 and all(html.escape(name) in table for s in plan.steps for name in s.parts)

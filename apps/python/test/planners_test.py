@@ -271,3 +271,83 @@ def test_a_check_says_what_it_remembers():
 
     with pytest.raises(dismantle.PluginError, match="'direction', 'orientation', 'shape'"):
         dismantle.run(dismantle.Assembly.from_meshes(loose_blocks()), config={**LINES, "objective": ["test.remembers_all"]})
+
+
+@dismantle.sequence_planner("test.obedient")
+class Obedient(dismantle.SequencePlanner):
+    """Takes out what the constraints let go."""
+
+    keeps_constraints = True
+
+    def plan(self, assembly, oracle, context):
+        answers = []
+        while not oracle.is_done and not context.should_stop():
+            for part in oracle.left:
+                if not oracle.may_leave(part):
+                    oracle.count("kept")
+                    continue
+                answer = oracle.attempt(part, max_depth=2)
+                if answer:
+                    oracle.remove(answer)
+                    break
+                answers.append(answer)
+            else:
+                return answers
+
+
+def test_a_sequence_planner_in_python_keeps_constraints_and_counts(box):
+    names = [part.name for part in box]
+    lid = [s.parts for s in dismantle.run(box, seed=1).steps][0][0]
+    config = {"sequence_planner": {"type": "test.obedient"}, "objective": []}
+    plan = dismantle.run(box, seed=1, config={**config, "constraints": {"target": lid}})
+    assert plan.steps[-1].parts == [lid] and plan.status == "complete"
+    plan = dismantle.run(box, seed=1, config={**config, "constraints": {"base": [names[0]]}})
+    assert plan.info["sequence_counts"]["kept"] > 0 and plan.steps and all(names[0] not in s.parts for s in plan.steps)
+    with pytest.raises(dismantle.Error, match="constraints"):
+        dismantle.run(box, seed=1, config={"sequence_planner": {"type": "test.disobedient"}, "constraints": {"base": [names[0]]}})
+
+
+@dismantle.sequence_planner("test.disobedient")
+class Disobedient(Obedient):
+    """Keeps no constraints."""
+
+    keeps_constraints = False
+
+
+@dismantle.path_planner("test.edges", needs=["distance"])
+class Edges(dismantle.PathPlanner):
+    """Asks for single edges, and counts those that are free."""
+
+    def plan(self, query, context):
+        start, world = query.start, query.world("translation")
+        for axis in range(3):
+            for sign in (1, -1):
+                end = start.copy()
+                end[:, axis] += 3 * sign * world.radius()
+                free = query.is_free(start, end)
+                query.count("free" if free else "blocked")
+                if free:
+                    return np.stack([start, end])
+        return None
+
+
+def test_a_path_planner_in_python_asks_for_edges_and_counts(peg):
+    plan = dismantle.run(peg, part="peg", seed=1, config={"path_planner": {"type": "test.edges"}, "simulator": {"type": "fcl"}})
+    assert plan.steps and plan.info["planner_counts"]["free"] >= 1 and plan.info["planner_counts"]["blocked"] >= 1
+
+
+@dismantle.sequence_planner("test.by_the_clock")
+class ByTheClock(Obedient):
+    """Breaks the law of determinism."""
+
+    def plan(self, assembly, oracle, context):
+        ByTheClock.calls = getattr(ByTheClock, "calls", 0) + 1
+        if ByTheClock.calls % 2:
+            return super().plan(assembly, oracle, context)
+
+
+def test_the_contract_is_checked(box):
+    assert dismantle.check_contract("test.obedient") == []
+    assert any("the same seed gave two plans" in p for p in dismantle.check_contract("test.by_the_clock"))
+    with pytest.raises(ValueError, match="plugins check"):
+        dismantle.check_contract("fcl")
