@@ -1,6 +1,8 @@
 // dismantle report DIR...
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "dismantle/bench/report.h"
 #include "dismantle/command.h"
 #include "dismantle/console.h"
@@ -22,6 +24,11 @@ struct ReportOptions {
 /// The requested tables. Default: all; without the list of trials as text, only that list as CSV.
 std::vector<bench::Table> chosen(std::vector<bench::Table> all, const ReportOptions& options) {
   std::vector<bench::Table> out;
+  std::vector<std::string> ids;
+  for (const auto& table : all) ids.push_back(table.id);
+  for (const auto& name : options.tables)
+    if (std::find(ids.begin(), ids.end(), name) == ids.end())
+      throw Error(fmt::format("--table {}: there is no such table; there are {}", name, fmt::join(ids, ", ")));
   for (auto& table : all) {
     const bool named = std::find(options.tables.begin(), options.tables.end(), table.id) != options.tables.end();
     const bool usual = options.format == "csv"    ? table.id == "trials"
@@ -117,9 +124,9 @@ void add_report(CLI::App& app, Action& action) {
       ->option_text("wall|cpu");
   command->add_option("-o,--output", options->output, "File to write; with --row: folder")->option_text("FILE");
   command->add_option("--table", options->tables, "Just this table; may be repeated")
-      ->check(CLI::IsMember({"setup", "planners", "success", "sizes", "time", "solution", "plans", "precision", "pairs",
-                             "outcomes", "counts", "curves", "trials"}))
-      ->option_text("setup|planners|success|sizes|time|solution|precision|pairs|outcomes|curves|trials")
+      ->option_text(
+          "setup|planners|success|sizes|time|solution|plans|precision|pairs|outcomes|counts|progress|searches|curves|"
+          "trials|ID")
       ->take_all()
       ->allow_extra_args(false);
   command->add_flag("--plans", options->plans, "html: write all plans beside the page, and link each row to its plan")

@@ -35,14 +35,15 @@ class Report(BenchTest):
     def report(self, *arguments):
         return self.call("report", *arguments).stdout
 
-    def split(self, parts):
+    def split(self, parts, folder="shards"):
         """The rows dealt out to several databases, as shards have them."""
-        os.makedirs(self.path("shards"))
+        os.makedirs(self.path(folder))
         for i in range(parts):
-            name = self.path("shards", f"shard-{i + 1}-of-{parts}.db")
+            name = self.path(folder, f"shard-{i + 1}-of-{parts}.db")
             shutil.copy(self.path("out/results.db"), name)
             db = sqlite3.connect(name)
-            for table, column in (("plans", "trial"), ("progress", "trial"), ("trials", "id")):
+            for table, column in (("plans", "trial"), ("progress", "trial"), ("searches", "trial"), ("search_nodes", "trial"),
+                                  ("trials", "id")):
                 db.execute(f"DELETE FROM {table} WHERE {column} % {parts} <> {i}")
             db.commit()
             db.close()
@@ -53,6 +54,13 @@ class Report(BenchTest):
             self.assertEqual(self.report("out", "--format", form), self.report("shards", "--format", form))
         # The same rows twice are the same rows.
         self.assertEqual(self.report("out", "--format", "csv"), self.report("out", "shards", "--format", "csv"))
+
+    def test_a_hundred_shards_are_the_whole_and_nothing_counts_twice(self):
+        self.split(100, "hundred")  # most of them are empty, as those of tasks that came too late are
+        whole = self.report("out", "--format", "csv")
+        self.assertEqual(whole, self.report("hundred", "--format", "csv"))
+        self.assertEqual(whole, self.report("hundred", "out", "hundred", "--format", "csv"))
+        self.assertIn("24 rows were in several databases", self.report("hundred", "out", "hundred", "--format", "html"))
 
     def test_real_shards_are_the_whole_matrix(self):
         for i in (1, 2, 3):
@@ -113,6 +121,9 @@ class Report(BenchTest):
         for link in links:
             self.assertIn("<!doctype html>", self.read(link).lower())
         self.assertIn("--pages needs --format html", self.call("report", "out", "--pages", status=2).stderr)
+
+    def rows_of(self, name, out):
+        return list(csv.DictReader(io.StringIO(self.report(out, "--table", name, "--format", "csv"))))
 
     def table(self, name, *arguments):
         return list(csv.DictReader(io.StringIO(self.report("out", "--table", name, "--format", "csv", *arguments))))
@@ -228,6 +239,49 @@ class Report(BenchTest):
         counts = self.report("out", "--table", "counts", "--format", "csv").splitlines()[0].split(",")[2:]
         self.assertEqual(counts, sorted(name.removeprefix("counts.") for name in trials[0] if name.startswith("counts.")
                                         and any(row[name] for row in solved)))
+
+    def test_tables_of_the_suite(self):
+        """A table of the suite has the means of the columns that it names, over all trials or the solved ones."""
+        more = ("seeds: 1..2\nsearch_nodes: 50\nobjective: [{type: directions, weight: 0}]\ntables:\n"
+                "  - {id: acme.effort, title: Effort of all, columns: [attempts, counts.iterations, checks.directions], trials: all}\n"
+                "  - {id: solved_ones, columns: [steps]}\n")
+        self.suite(self.PLANNERS + self.evil("none"), more=more, assemblies="  - {sample: stacked_box}\n", name="own.yaml")
+        self.bench(suite="own.yaml", out="own")
+        table = self.rows_of("acme.effort", out="own")
+        self.assertEqual(list(table[0]), ["planner", "assemblies", "attempts", "counts.iterations", "checks.directions"])
+        rows = self.rows(database="own/results.db")
+        for line in table:
+            mine = [r["attempts"] for r in rows if r["planner"] == line["planner"]]
+            self.assertAlmostEqual(float(line["attempts"]), sum(mine) / len(mine), places=2)
+        self.assertEqual({line["planner"] for line in self.rows_of("solved_ones", out="own")}, {"t_rrt", "none"})
+        self.assertIn("Effort of all", self.report("own", "--format", "html"))
+        self.assertIn("there is no such table; there are setup, ", self.call("report", "own", "--table", "efort", status=2).stderr)
+
+    def test_progress_of_trials_and_searches(self):
+        """Shares never fall, and end where the trials ended; points and nodes are rows of the database."""
+        planners = "  bfs: {set: {path_planner.type: bfs, sequence_planner.type: progressive}}\n"
+        self.suite(planners, more="search_nodes: 20\n", assemblies="  - {sample: peg_in_hole}\n", name="searches.yaml")
+        self.bench(suite="searches.yaml", out="searches")
+        points = self.rows("SELECT * FROM searches ORDER BY rowid", "searches/results.db")
+        self.assertTrue(points)
+        for before, after in zip(points, points[1:]):
+            if before["search"] == after["search"]:
+                self.assertGreater(after["best"], before["best"])
+                self.assertGreaterEqual(after["effort"], before["effort"])
+        nodes = self.rows("SELECT * FROM search_nodes ORDER BY search, node", "searches/results.db")
+        self.assertTrue(0 < len(nodes) <= 20)
+        self.assertTrue(all(-1 <= n["parent"] < n["node"] for n in nodes))
+        for table in ("progress", "searches"):
+            line = self.rows_of(table, out="searches")[0]
+            shares = [float(share) for share in list(line.values())[2:]]
+            self.assertEqual(shares, sorted(shares))
+        self.assertEqual(float(list(self.rows_of("progress", out="searches")[0].values())[-1]), 100)
+        page = self.report("searches", "--format", "html")
+        self.assertIn("Progress of searches", page)
+        self.call("report", "searches", "--row", "1", "-o", "row")
+        trees = json.loads(self.read("row/search_trees.json"))
+        self.assertEqual(sum(len(tree["nodes"]) for tree in trees), len(nodes))
+        self.assertEqual(self.read("row/search_trees.html").count("<circle"), len(nodes))
 
     def test_what_cannot_be_reported(self):
         os.makedirs(self.path("empty"))

@@ -46,14 +46,16 @@ LevelSearch::LevelSearch(const PathQuery& query, MotionSpace space, const Parame
       world_(query.simulator.world(query.assembly, query.prepared, query.scene, space)),
       bodies_(path::balls_of(*world_)),
       actions_(actions_of(*world_, parameters)),
-      ends_({}, 1, 1) {
+      ends_({}, 1, 1),
+      record_(query, context) {
   // The verifier and the published code allow the initial overlap of a pair everywhere.
   world_->allow_overlap_everywhere();
   begin();
   if (earlier == nullptr) return;
   for (const path::ContactSample& s : earlier->samples) world_->add_contact_sample(s.part, s.other, s.point);
   levels_ = *earlier;
-  for (const Node& node : levels_.nodes) remember(node.state);
+  record_.restart();
+  for (const Node& node : levels_.nodes) record_.node(node.parent, path::poses_of(node.state), 0, remember(node.state));
   resumed_ = levels_.nodes.size();
   spared_ = levels_.work;
 }
@@ -63,24 +65,28 @@ void LevelSearch::begin() {
   levels_.nodes.clear();
   levels_.next.clear();
   levels_.at = levels_.action = 0;
+  record_.restart();
   levels_.level = {add({.state = world_->initial_state()})};
 }
 
-void LevelSearch::remember(const State& state) {
+/// Returns how far the centre of a part has moved, at most.
+double LevelSearch::remember(const State& state) {
   ends_.add(state, 0);
   double way = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Eigen::Vector3d& center = bodies_[i].center;
     way = std::max(way, (state.bodies[i].pose * center - query_.scene.moving[i].pose * center).norm());
   }
-  if (way <= farthest_) return;
+  if (way <= farthest_) return way;
   farthest_ = way;
   best_ = path::poses_of(state);
+  return way;
 }
 
 std::int32_t LevelSearch::add(Node node) {
   for (auto& b : node.state.bodies) b.velocity.setZero(), b.angular_velocity.setZero();
-  remember(node.state);
+  const double way = remember(node.state);
+  if (record_.listens()) record_.node(node.parent, path::poses_of(node.state), static_cast<double>(steps_), way);
   levels_.nodes.push_back(std::move(node));
   return static_cast<std::int32_t>(levels_.nodes.size() - 1);
 }

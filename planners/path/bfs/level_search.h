@@ -9,6 +9,7 @@
 #include "dismantle/path/resume.h"
 #include "dismantle/path/state_set.h"
 #include "dismantle/path_planner.h"
+#include "dismantle/plugin/search_recorder.h"
 #include "parameters.h"
 
 namespace dismantle::bfs {
@@ -57,7 +58,7 @@ class LevelSearch {
 
  private:
   void begin();
-  void remember(const State& state);
+  double remember(const State& state);
   std::int32_t add(Node node);
   void next_level();
   End expand(std::int32_t from, PathResult& result);
@@ -74,6 +75,7 @@ class LevelSearch {
   std::vector<Action> actions_;
   path::StateSet ends_;  ///< ends of the runs so far
   Levels levels_;
+  SearchRecord record_;
   Deadline deadline_;
   std::uint64_t* steps_left_ = nullptr;
   std::map<PartId, std::uint64_t> touched_;

@@ -72,7 +72,7 @@ class BkRrtSearch final : public PathSearch {
 
  private:
   void add(MotionSpace motion, std::uint64_t stream) {
-    trees_.push_back(std::make_unique<RandomTree>(query_, motion, parameters_, context_.rng.fork(stream)));
+    trees_.push_back(std::make_unique<RandomTree>(query_, motion, parameters_, context_, context_.rng.fork(stream)));
   }
   std::uint64_t used() const {
     std::uint64_t steps = 0;

@@ -19,8 +19,10 @@ bool same(const std::vector<Pose>& a, const std::vector<Pose>& b) {
 
 }  // namespace
 
-RandomTree::RandomTree(const PathQuery& query, MotionSpace motion, const Parameters& parameters, const Rng& rng)
+RandomTree::RandomTree(const PathQuery& query, MotionSpace motion, const Parameters& parameters,
+                       const RunContext& context, const Rng& rng)
     : query_(query),
+      record_(query, context),
       parameters_(parameters),
       rng_(rng),
       world_(query.simulator.world(query.assembly, query.prepared, query.scene, motion)),
@@ -50,6 +52,9 @@ std::uint32_t RandomTree::add(State state, std::uint32_t parent, Path path) {
   nodes_.push_back({std::move(state), where, parent, depth, std::move(path)});
   const std::uint32_t id = near_.add(where.center);
   const double moved = (where.center - nodes_[0].displacement.center).norm();
+  if (record_.listens())
+    record_.node(id == 0 ? -1 : static_cast<std::ptrdiff_t>(parent), path::poses_of(nodes_[id].state),
+                 static_cast<double>(steps_), moved);
   if (moved > farthest_distance_) {
     farthest_distance_ = moved;
     farthest_ = id;

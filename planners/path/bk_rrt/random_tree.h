@@ -8,6 +8,7 @@
 
 #include "dismantle/path/path_thinning.h"
 #include "dismantle/path_planner.h"
+#include "dismantle/plugin/search_recorder.h"
 #include "dismantle/sampling/displacement_space.h"
 #include "dismantle/sampling/nearest.h"
 #include "parameters.h"
@@ -16,7 +17,8 @@ namespace dismantle::bk_rrt {
 
 class RandomTree {
  public:
-  RandomTree(const PathQuery& query, MotionSpace motion, const Parameters& parameters, const Rng& rng);
+  RandomTree(const PathQuery& query, MotionSpace motion, const Parameters& parameters, const RunContext& context,
+             const Rng& rng);
 
   /// One iteration: random state, nearest node, random action, simulation. True when the checker accepts a path;
   /// `result` then holds it.
@@ -49,6 +51,7 @@ class RandomTree {
   void record_contacts(const State& state);
 
   const PathQuery& query_;
+  SearchRecord record_;
   Parameters parameters_;
   Rng rng_;
   std::unique_ptr<World> world_;

@@ -188,6 +188,8 @@ Enlistment enlist(const Suite& suite, const CampaignOptions& options) {
     r.input_name = input_name(assembly, out.wanted.inputs.at(assembly.name),
                               import_params_of(planner.config, *planner.registry), variant.rotate, cell.seed);
     r.max_penetration = suite.max_penetration;
+    for (const auto& path : planner.config.plugin_search_paths) r.plugins.push_back(fs::absolute(path).string());
+    r.search_nodes = static_cast<std::size_t>(suite.search_nodes);
     out.trials.push_back(std::move(trial));
   }
   return out;

@@ -9,6 +9,7 @@
 #include "dismantle/outcome.h"
 #include "dismantle/plan_io/read_file.h"
 #include "trial/files.h"
+#include "trial/search_file.h"
 
 namespace dismantle::bench {
 namespace {
@@ -89,6 +90,7 @@ bool RunningTrial::ended() {
 void RunningTrial::take_plan(const process::End& end) {
   const TrialFiles files(folder_);
   read_progress(files.progress, record_);
+  record_.searches = read_searches(files.searches);
   std::error_code error;
   if (fs::is_regular_file(files.plan, error)) record_.plan = read_file(files.plan);
   row_.outcome = outcome_of(end);

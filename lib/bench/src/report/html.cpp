@@ -102,6 +102,11 @@ std::string report_html(const ReportData& data, const std::vector<Table>& tables
   out += "</p>\n";
   for (const auto& table : tables) {
     if (table.id == "curves") out += "<h2>Success over time</h2>\n" + svg_of(curves_of(data));
+    if (table.id == "progress" && !table.rows.empty())
+      out += "<h2>Progress over time</h2>\n" + svg_of(progress_of(data), "", {"Share of parts out over time", " s"});
+    if (table.id == "searches" && !table.rows.empty())
+      out +=
+          "<h2>Progress of searches</h2>\n" + svg_of(searches_of(data), "", {"Way of the best state over effort", ""});
     out += html_of(table);
   }
   return out + fmt::format("<script>{}</script>\n</body></html>\n", report_script());

@@ -17,6 +17,12 @@ Table precision_table(const std::vector<Contender>& contenders);
 Table plans_table(const std::vector<Contender>& contenders);
 /// The planners' own counts.
 Table counts_table(const std::vector<Contender>& contenders);
+/// A table of a suite: means of figures that it names.
+Table suite_table(const SuiteTable& wanted, const std::vector<Contender>& contenders);
+/// Parts that are out after a time.
+Table progress_table(const ReportData& data);
+/// Ways of the best states of searches after some effort.
+Table searches_table(const ReportData& data);
 /// How trials ended.
 Table outcomes_table(const std::vector<Contender>& contenders);
 /// The curves at a few times.

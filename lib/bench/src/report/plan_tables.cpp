@@ -1,5 +1,6 @@
 // Tables of what the plans are like, and of what the planners count.
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -12,6 +13,7 @@ namespace dismantle::bench {
 namespace {
 
 using Figures = std::map<std::string, double>;
+using FiguresOf = std::function<Figures(const ReportRow&)>;
 
 /// The figures of a plan, by the headings of the table.
 Figures plan_figures(const ReportRow& row) {
@@ -30,13 +32,14 @@ Figures plan_figures(const ReportRow& row) {
 
 /// The mean of each figure: over the solved trials of an assembly, then over assemblies. A figure that a trial does not
 /// have is not counted.
-Figures means_of(const Contender& c, const std::set<std::string>& assemblies, Figures (*figures)(const ReportRow&)) {
+Figures means_of(const Contender& c, const std::set<std::string>& assemblies, const FiguresOf& figures,
+                 bool all_trials) {
   struct Mean {
     double sum = 0, count = 0;
   };
   std::map<std::string, std::map<std::string, Mean>> each;  // figure, assembly
   for (const ReportRow* row : c.rows)
-    if (row->solved && assemblies.contains(row->assembly))
+    if (all_trials || (row->solved && assemblies.contains(row->assembly)))
       for (const auto& [name, value] : figures(*row)) {
         Mean& mean = each[name][row->assembly];
         mean.sum += value;
@@ -69,14 +72,16 @@ std::set<std::string> solved_by_all(const std::vector<Contender>& contenders, co
 }
 
 Table table_of(const std::vector<Contender>& contenders, const std::vector<std::string>& first,
-               Figures (*figures)(const ReportRow&)) {
+               const FiguresOf& figures, bool all_trials = false) {
   std::vector<Figures> means;
   std::set<std::string> names;
   std::vector<std::size_t> counts;
   for (const Contender& c : contenders) {
     const std::set<std::string> common = solved_by_all(contenders, c);
-    counts.push_back(common.size());
-    means.push_back(means_of(c, common, figures));
+    std::set<std::string> all;
+    for (const ReportRow* row : c.rows) all.insert(row->assembly);
+    counts.push_back(all_trials ? all.size() : common.size());
+    means.push_back(means_of(c, common, figures, all_trials));
     for (const auto& [name, value] : means.back()) names.insert(name);
   }
   std::vector<std::string> order;
@@ -118,6 +123,32 @@ Table plans_table(const std::vector<Contender>& contenders) {
       "solved trials, then over assemblies. Directions are those of insertion; the path length, of the part that each "
       "step names first, is in largest edges of the assembly, turns are whole ones. Costs are those of the step checks "
       "of the suite's objective, without weights.";
+  return table;
+}
+
+Table suite_table(const SuiteTable& wanted, const std::vector<Contender>& contenders) {
+  const auto figures = [&](const ReportRow& row) {
+    Figures known = named_figures(row.checks, "checks.");
+    known.merge(named_figures(row.counts, "counts."));
+    for_result_columns(row, [&]<class T>(const char* name, const T& value, const char*) {
+      if constexpr (std::is_arithmetic_v<T>)
+        known[name] = static_cast<double>(value);
+      else if constexpr (!std::is_same_v<T, std::string>)
+        if (value) known[name] = static_cast<double>(*value);
+    });
+    Figures out;
+    for (const std::string& name : wanted.columns)
+      if (const auto found = known.find(name); found != known.end()) out.insert(*found);
+    return out;
+  };
+  Table table = table_of(contenders, wanted.columns, figures, wanted.all_trials);
+  table.id = wanted.id;
+  table.title = wanted.title;
+  table.note = wanted.note + (wanted.note.empty() ? "" : " ") +
+               (wanted.all_trials
+                    ? "The mean over an assembly's trials that have the figure, then over assemblies."
+                    : "Over the assemblies that every planner solved, of those planners that solved any: the mean over "
+                      "an assembly's solved trials, then over assemblies.");
   return table;
 }
 

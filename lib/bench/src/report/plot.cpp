@@ -40,7 +40,7 @@ std::string line(double x1, double y1, double x2, double y2, const char* style) 
   return fmt::format("<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' class='{}'/>\n", x1, y1, x2, y2, style);
 }
 
-std::string grid(const Axes& axes) {
+std::string grid(const Axes& axes, const std::string& unit) {
   std::string out;
   for (int percent = 0; percent <= 100; percent += 20) {
     const double y = axes.y(percent / 100.0);
@@ -49,8 +49,8 @@ std::string grid(const Axes& axes) {
   }
   for (double t = axes.first; t <= axes.last; t *= 10) {
     out += line(axes.x(t), axes.top, axes.x(t), axes.top + axes.height, "grid");
-    out += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:g} s</text>\n", axes.x(t),
-                       axes.top + axes.height + 18, t);
+    out += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:g}{}</text>\n", axes.x(t),
+                       axes.top + axes.height + 18, t, unit);
   }
   return out;
 }
@@ -69,23 +69,23 @@ std::string colour_of(std::size_t i) {
   return colours[i % std::size(colours)];
 }
 
-std::string svg_of(const std::vector<Curve>& curves, const std::string& style) {
+std::string svg_of(const std::vector<Curve>& curves, const std::string& style, const Axis& axis) {
   const Axes axes = axes_of(curves);
   const double width = axes.left + axes.width + 24,
                height = axes.top + axes.height + 40 + axes.legend * double(curves.size());
   std::string out = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0:.0f} {1:.0f}' role='img' "
-      "aria-label='Share of trials solved over time'>\n",
-      width, height);
+      "aria-label='{2}'>\n",
+      width, height, escaped_markup(axis.what));
   if (!style.empty())
     out +=
         fmt::format("<style>{}</style>\n<rect width='{:.0f}' height='{:.0f}' class='page'/>\n", style, width, height);
-  out += grid(axes);
+  out += grid(axes, axis.unit);
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const std::string look = fmt::format("stroke='{}'{}", colour_of(i), i >= 8 ? " stroke-dasharray='6 4'" : "");
     const double share = curves[i].steps.empty() ? 0 : curves[i].steps.back().second;
-    const std::string label =
-        fmt::format("{}: {:.1f} % after {:.3g} s", escaped_markup(curves[i].label), 100 * share, curves[i].end);
+    const std::string label = fmt::format("{}: {:.1f} % after {:.3g}{}", escaped_markup(curves[i].label), 100 * share,
+                                          curves[i].end, axis.unit);
     out +=
         fmt::format("<path d='{}' class='curve' {}><title>{}</title></path>\n", path_of(curves[i], axes), look, label);
     const double y = axes.top + axes.height + 44 + axes.legend * double(i);

@@ -9,6 +9,7 @@
 #include "dismantle/preparation/read_input.h"
 #include "report/observations.h"
 #include "store/results.h"
+#include "store/suite_tables.h"
 
 namespace dismantle::bench {
 namespace {
@@ -84,6 +85,13 @@ class Merger {
                                    kOldestVersion, kStoreVersion));
     append_new(names_, value("name"));
     append_new(data_.planners, value("planners"));
+    for (SuiteTable& table : suite_tables_of(value("tables")))
+      if (std::ranges::none_of(data_.tables, [&](const SuiteTable& t) { return t.id == table.id; }))
+        data_.tables.push_back(std::move(table));
+    const bool has_searches = db.prepare("SELECT 1 FROM sqlite_master WHERE name = 'searches'").step();
+    std::optional<Statement> searches;
+    if (has_searches)
+      searches.emplace(db, "SELECT search, part, seconds, effort, best FROM searches WHERE trial = ? ORDER BY rowid");
     append_new(data_.variants, value("variants"));
     auto open = db.prepare("SELECT count(*) FROM trials WHERE state <> 'done'");
     if (open.step()) data_.missing += static_cast<std::size_t>(open.integer(0));
@@ -102,6 +110,13 @@ class Merger {
       progress.bind(row.id);
       while (progress.step()) row.progress.emplace_back(progress.number(0), progress.integer(1));
       progress.done();
+      if (searches) {
+        searches->bind(row.id);
+        while (searches->step())
+          row.searches.push_back(
+              {searches->integer(0), searches->number(2), searches->number(3), searches->number(4), searches->text(1)});
+        searches->done();
+      }
       if (!data_.composition.contains(row.planner)) data_.composition[row.planner] = plugins_of(db, row.config_hash);
       append_new(data_.planners, row.planner);  // for rows of planners that are no longer in the suite
       append_new(data_.variants, row.variant);

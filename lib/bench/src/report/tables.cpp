@@ -140,6 +140,9 @@ std::vector<Table> tables_of(const ReportData& data, const std::vector<std::stri
   out.push_back(pairs_table(contenders));
   out.push_back(outcomes_table(contenders));
   out.push_back(counts_table(contenders));
+  for (const SuiteTable& table : data.tables) out.push_back(suite_table(table, contenders));
+  out.push_back(progress_table(data));
+  out.push_back(searches_table(data));
   out.push_back(curves_table(data));
   out.push_back(trials_table(data, links));
   return out;

@@ -7,6 +7,7 @@
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/write_file.h"
 #include "launch/shell.h"
+#include "report/search_trees.h"
 #include "report/stored_plans.h"
 #include "store/sqlite.h"
 
@@ -47,6 +48,7 @@ std::string write_row(const ReportRow& row, const std::filesystem::path& folder)
   write_file(folder / "config.yaml", config.text(0));
   if (row.has_plan) write_file(folder / "plan.json", StoredPlans().of(row));
   write_file(folder / "row.json", json_of(row).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  write_search_trees(db, row.id, folder);
   return fmt::format("dismantle plan {} -c {}{}", shell_quoted(row.input),
                      shell_quoted((folder / "config.yaml").string()),
                      row.part.empty() ? "" : " --part " + shell_quoted(row.part));

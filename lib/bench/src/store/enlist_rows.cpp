@@ -6,6 +6,7 @@
 #include "dismantle/errors.h"
 #include "store/identity.h"
 #include "store/results.h"
+#include "store/suite_tables.h"
 #include "store/version.h"
 
 namespace dismantle::bench {
@@ -80,7 +81,7 @@ std::string Results::difference(const TrialPlan& known, const TrialPlan& trial, 
 }
 
 void Results::reset(std::int64_t id, const TrialPlan& trial) {
-  for (const char* table : {"plans", "progress"})
+  for (const char* table : {"plans", "progress", "searches", "search_nodes"})
     db_.prepare(fmt::format("DELETE FROM {} WHERE trial = ?", table)).bind(id).done();
   std::string columns;
   for_result_columns(TrialResult{},
@@ -135,6 +136,7 @@ std::vector<std::string> Results::enlist(const Suite& suite, const Wanted& wante
   }
   put(db_, "name", suite.name);
   put(db_, "text", suite.text);
+  put(db_, "tables", text_of(suite.tables));
   put(db_, "generator", "dismantle " + version_and_commit());
   std::string planners, variants;
   for (const auto& planner : suite.planners) planners += planner.name + "\n";

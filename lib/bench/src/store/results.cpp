@@ -173,6 +173,15 @@ void Results::finish(std::size_t trial, TrialRecord record) {
         .done();
   auto add = db_.prepare("INSERT INTO progress VALUES (?, ?, ?)");
   for (const auto& [seconds, removed] : record.progress) add.bind(id).bind(seconds).bind(removed).done();
+  auto point = db_.prepare("INSERT INTO searches VALUES (?, ?, ?, ?, ?, ?)");
+  for (const SearchPoint& p : record.searches.points)
+    point.bind(id).bind(p.search).bind(p.part).bind(p.seconds).bind(p.effort).bind(p.best).done();
+  auto node = db_.prepare("INSERT INTO search_nodes VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  for (const SearchNode& n : record.searches.nodes) {
+    node.bind(id).bind(n.search).bind(n.node).bind(n.parent).bind(n.effort);
+    for (const double x : n.place) node.bind(x);
+    node.done();
+  }
   transaction.commit();
 }
 

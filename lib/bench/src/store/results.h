@@ -33,6 +33,7 @@ struct TrialRecord {
   TrialResult result;
   std::string plan;                                       ///< JSON text; empty: there is none
   std::vector<std::pair<double, std::int64_t>> progress;  ///< seconds, parts removed
+  SearchRecords searches;
 };
 
 struct Tally {

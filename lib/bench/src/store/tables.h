@@ -21,6 +21,14 @@ CREATE TABLE IF NOT EXISTS plans (
   trial INTEGER PRIMARY KEY REFERENCES trials(id), codec TEXT NOT NULL, size INTEGER NOT NULL, bytes BLOB NOT NULL);
 CREATE TABLE IF NOT EXISTS progress (
   trial INTEGER NOT NULL REFERENCES trials(id), seconds REAL NOT NULL, removed INTEGER NOT NULL);
+CREATE TABLE IF NOT EXISTS searches (
+  trial INTEGER NOT NULL REFERENCES trials(id), search INTEGER NOT NULL, part TEXT NOT NULL, seconds REAL NOT NULL,
+  effort REAL NOT NULL, best REAL NOT NULL);
+CREATE INDEX IF NOT EXISTS searches_of_trial ON searches(trial);
+CREATE TABLE IF NOT EXISTS search_nodes (
+  trial INTEGER NOT NULL REFERENCES trials(id), search INTEGER NOT NULL, node INTEGER NOT NULL, parent INTEGER NOT NULL,
+  effort REAL NOT NULL, x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL, qw REAL NOT NULL, qx REAL NOT NULL,
+  qy REAL NOT NULL, qz REAL NOT NULL, PRIMARY KEY (trial, search, node));
 CREATE INDEX IF NOT EXISTS progress_of_trial ON progress(trial);
 )";
 

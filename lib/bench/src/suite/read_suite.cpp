@@ -10,6 +10,8 @@
 #include "dismantle/plan_io/read_file.h"
 #include "suite/assemblies.h"
 #include "suite/problem.h"
+#include "suite/search_paths.h"
+#include "suite/tables.h"
 
 namespace dismantle::bench {
 namespace {
@@ -104,6 +106,8 @@ class Reader {
     suite_.verify_cpu = verify.cpu;
     check_limits();
     read_seed_list();
+    if (const ConfigNode* plugins = node("plugins"))
+      search_paths_ = read_search_paths(*plugins, suite_.file.parent_path(), problems_);
     if (const ConfigNode* list = required("assemblies")) read_assemblies(*list, suite_, problems_);
     try {
       problem_ = problem_of(root, suite_.max_penetration);
@@ -134,7 +138,7 @@ class Reader {
     std::vector<std::string> known = {"schema", "name",   "assemblies",     "planners", "seeds",
                                       "limits", "verify", "assembly_steps", "variants"};
     known.insert(known.end(), kForAll.begin(), kForAll.end());
-    known.emplace_back("objective");
+    known.insert(known.end(), {"objective", "plugins", "tables", "search_nodes"});
     for (const auto& member : root_->members)
       if (std::find(known.begin(), known.end(), member.key) == known.end())
         problems_.push_back(member.key_mark.error(unknown_key_message(member.key, {"", "", ""}, known, {})));
@@ -145,20 +149,25 @@ class Reader {
     struct Top {
       std::string name;
       bool assembly_steps = false;
+      std::int64_t search_nodes = 0;
       static void describe(Schema<Top>& s) {
         s.add("name", &Top::name, {.doc = "Title of the reports; default: the file's name."});
         s.add("assembly_steps", &Top::assembly_steps, {.doc = "Plan the assembly steps, too."});
+        s.add("search_nodes", &Top::search_nodes,
+              {.unit = "1", .min = 0, .max = 1e6, .doc = "Nodes of search trees that each trial keeps."});
       }
     };
     ConfigNode plain;
     plain.kind = ConfigNode::Kind::map;
-    for (const char* key : {"name", "assembly_steps"})
+    for (const char* key : {"name", "assembly_steps", "search_nodes"})
       if (const auto* member = root_->find(key)) plain.members.push_back(*member);
     std::map<std::string, std::string> origins;
     const Top top =
         Schema<Top>().bind(bind_section(Schema<Top>().specs(), &plain, {"suite", "", ""}, {}, origins, problems_));
     if (!top.name.empty()) suite_.name = top.name;
     assembly_steps_ = top.assembly_steps;
+    suite_.search_nodes = top.search_nodes;
+    if (const ConfigNode* list = node("tables")) suite_.tables = read_tables(*list, problems_);
   }
 
   template <class T>
@@ -261,7 +270,10 @@ class Reader {
     planner.name = name;
     const auto load = [&] {
       planner.registry = std::make_shared<Registry>();
+      for (const auto& path : search_paths_) planner.registry->add_search_path(path);
       planner.config = load_config(source, *planner.registry);
+      auto& paths = planner.config.plugin_search_paths;
+      paths.insert(paths.end(), search_paths_.begin(), search_paths_.end());
     };
     try {
       load();
@@ -343,6 +355,7 @@ class Reader {
   Suite suite_;
   bool assembly_steps_ = false;
   Problem problem_;
+  std::vector<fs::path> search_paths_;
 };
 
 }  // namespace

@@ -44,7 +44,7 @@ nlohmann::json read_json(const std::filesystem::path& file) {
 }
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TrialRequest, config, input, sample, sample_values, rotate, seed, part, inputs,
-                                   input_name, max_penetration)
+                                   input_name, max_penetration, plugins, search_nodes)
 
 void write_request(const TrialRequest& request, const std::filesystem::path& folder) {
   write_file(TrialFiles(folder).request, nlohmann::json(request).dump(1) + "\n");

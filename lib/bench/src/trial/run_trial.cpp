@@ -14,6 +14,7 @@
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/session/session.h"
 #include "trial/files.h"
+#include "trial/search_file.h"
 
 namespace dismantle::bench {
 namespace {
@@ -105,6 +106,8 @@ void plan_trial(const fs::path& folder) {
   // Forced steps would hide what a planner does not find.
   const Session session({request.config, {"run.force=off"}, {}});
   RunContext context = context_of_trial();
+  const auto searches = std::make_shared<SearchFile>(TrialFiles(folder).searches, request.search_nodes);
+  context.on_log = SearchRecorder{context.on_log, searches};
   context.threads = std::max(1u, session.config().run.threads);
   const fs::path input = input_of(request, [&](const fs::path& file) { return session.read(file, context); });
   const LoadedAssembly loaded = session.load(input, context);
@@ -140,7 +143,9 @@ void plan_trial(const fs::path& folder) {
   row.proof_seconds = result.proof_seconds;
   row.attempts = result.counts.attempts;
   row.memoised = result.counts.memoised;
-  row.counts = nlohmann::json(result.planner_counts).dump();
+  std::map<std::string, double> counts = result.planner_counts;
+  counts.insert(result.sequence_counts.begin(), result.sequence_counts.end());  // a name of both is the path planner's
+  row.counts = nlohmann::json(counts).dump();
   row.simulated_steps = count("steps");
   row.nodes = count("nodes");
   row.collision_checks = count("state_checks");
@@ -151,7 +156,10 @@ void plan_trial(const fs::path& folder) {
 void verify_trial(const fs::path& folder) {
   std::set_new_handler(end_without_memory);
   const TrialRequest request = read_request(folder);
-  const Session session = Session::reader();
+  // Proofs and verdicts of third parties are checked by their plugins.
+  const auto plugins = std::make_shared<Registry>();
+  for (const std::string& path : request.plugins) plugins->add_search_path(path);
+  const Session session = Session::reader(plugins);
   const RunContext context = context_of_trial();
   const Plan plan = read_plan(TrialFiles(folder).plan);
   const fs::path input = input_of(request, [&](const fs::path& file) { return session.read(file, plan, context); });

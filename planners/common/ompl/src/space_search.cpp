@@ -8,6 +8,7 @@
 #include "dismantle/path/ended_search.h"
 #include "dismantle/path/growing_turns.h"
 #include "dismantle/path/time_limit.h"
+#include "dismantle/plugin/search_recorder.h"
 #include "dismantle/sampling/candidate_paths.h"
 
 namespace dismantle::sampling {
@@ -82,6 +83,7 @@ class SpaceSearch final : public PathSearch {
         budget_(query, context),
         level_(path::doubled_per_level(parameters.level_checks, query.budget.max_depth)),
         candidates_(query.checker, parameters.simplify),
+        record_(query, context),
         turns_(parameters.motion == Motion::automatic ? 2 : 1, static_cast<std::uint64_t>(parameters.first_turn)) {
     const auto add = [&](MotionSpace motion, std::uint64_t stream) {
       spaces_.push_back(
@@ -111,6 +113,7 @@ class SpaceSearch final : public PathSearch {
           until, [&] { return budget_.checks; },
           [&](std::size_t space, std::uint64_t share) {
             solved = spaces_[space]->grow(candidates_, share, result_);
+            record(*spaces_[space]);
             return solved || budget_.spent();
           });
     budget_.deadline = query_end;
@@ -144,6 +147,13 @@ class SpaceSearch final : public PathSearch {
   }
 
  private:
+  /// The best state of a tree; its other nodes are not recorded.
+  void record(const Space& space) {
+    const auto state = record_.listens() ? space.planner().farthest() : std::nullopt;
+    if (!state) return;
+    const double way = (state->center - space.problem().space().start().center).norm();
+    record_.node(-1, space.problem().poses(*state), static_cast<double>(budget_.checks), way);
+  }
   bool starts_separated() {
     SamplingProblem& first = spaces_.front()->problem();
     return first.is_separated(first.space().start());
@@ -156,6 +166,7 @@ class SpaceSearch final : public PathSearch {
   CheckBudget budget_;
   std::uint64_t level_;  ///< state checks that the depth limit allows
   CandidatePaths candidates_;
+  SearchRecord record_;
   path::GrowingTurns turns_;
   std::vector<std::unique_ptr<Space>> spaces_;
   PathResult result_;

@@ -11,7 +11,7 @@ namespace dismantle::push {
 Search::Search(const PathQuery& query, MotionSpace space, const Tactics& tactics, RunContext& context)
     : context_(context),
       problem_(std::make_unique<Problem>(query, space, tactics)),
-      tree_(*problem_),
+      tree_(*problem_, context),
       verification_(*problem_),
       work_(context) {
   const auto* reached = dynamic_cast<const Reached*>(query.resume_from);
@@ -57,6 +57,7 @@ RunEnd Search::verify(std::int32_t last, std::int32_t from, PathResult& result) 
 RunEnd Search::expand(std::int32_t id, PathResult& result) {
   ++expanded_;
   const std::uint64_t before = work_.total();
+  tree_.note_work(before);
   const std::size_t stage = tree_.begin_stage(id);
   const Stage actions = problem_->stages()[stage];
   const unsigned depth = tree_[id].depth + 1;

@@ -16,8 +16,9 @@ path::StateSet states(const Problem& problem, double share_of_translation, doubl
 
 }  // namespace
 
-StateTree::StateTree(const Problem& problem)
+StateTree::StateTree(const Problem& problem, const RunContext& context)
     : problem_(problem),
+      record_(problem.query, context),
       seen_(states(problem, 1, 1)),
       fine_(states(problem, problem.tactics.end_similarity, problem.tactics.end_similarity)),
       places_(states(problem, problem.tactics.place_similarity, 1)) {}
@@ -25,6 +26,7 @@ StateTree::StateTree(const Problem& problem)
 void StateTree::clear() {
   for (path::StateSet* set : {&seen_, &fine_, &places_}) set->clear();
   nodes_.clear();
+  record_.restart();
   waiting_.clear();
   beyond_limit_ = 0;
   middles_.clear();
@@ -37,7 +39,9 @@ std::int32_t StateTree::add(std::int32_t parent, unsigned depth, const State& st
   const std::uint32_t id = size();
   seen_.add(node.state, id);
   fine_.add(node.state, id);
-  if (const double displacement = problem_.displacement(state); displacement > displacement_) {
+  const double displacement = problem_.displacement(state);
+  if (record_.listens()) record_.node(parent, path::poses_of(state), static_cast<double>(work_), displacement);
+  if (displacement > displacement_) {
     displacement_ = displacement;
     farthest_ = path::poses_of(state);
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dismantle/bench/statistics.h"
+#include "dismantle/bench/suite.h"
 #include "dismantle/bench/trial_row.h"
 #include "dismantle/export.h"
 
@@ -20,6 +21,7 @@ struct ReportData {
   std::vector<std::string> planners, variants;  ///< in the order of the suite
   std::vector<ReportRow> rows;
   std::map<std::string, std::vector<PluginUse>> composition;  ///< of each planner
+  std::vector<SuiteTable> tables;                             ///< of the suites
   std::size_t missing = 0;         ///< trials that are listed in the databases but not finished
   std::vector<std::string> notes;  ///< remarks that the report shows to its reader
 };
@@ -44,8 +46,8 @@ struct Table {
   std::vector<std::vector<TableCell>> rows;
 };
 
-/// The tables setup, planners, success, sizes, time, solution, plans, precision, pairs, outcomes, counts, curves
-/// and trials. `links`: of
+/// The tables setup, planners, success, sizes, time, solution, plans, precision, pairs, outcomes, counts, those of the
+/// suites, progress, searches, curves and trials. `links`: of
 /// each row, to what shows its plan, relative to the page; empty: none.
 DISMANTLE_API std::vector<Table> tables_of(const ReportData& data, const std::vector<std::string>& links = {});
 
@@ -62,6 +64,11 @@ struct Curve {
   std::size_t solved = 0, censored = 0, never = 0;
 };
 DISMANTLE_API std::vector<Curve> curves_of(const ReportData& data);
+/// Mean share of the parts that are out after a time, of all trials; a trial that has ended keeps its last value.
+DISMANTLE_API std::vector<Curve> progress_of(const ReportData& data);
+/// Mean way of the best state of a search after some effort (SearchStats::cost), in largest edges of the assembly and
+/// at most 1, of all searches that recorded their states. `end`: an effort.
+DISMANTLE_API std::vector<Curve> searches_of(const ReportData& data);
 
 DISMANTLE_API std::string report_text(const ReportData& data, const std::vector<Table>& tables);
 DISMANTLE_API std::string report_markdown(const ReportData& data, const std::vector<Table>& tables);
@@ -75,8 +82,9 @@ DISMANTLE_API std::string report_html(const ReportData& data, const std::vector<
 /// Writes the five tables that OMPL's Planner Arena reads. Replaces `file`.
 DISMANTLE_API void write_arena(const ReportData& data, const std::filesystem::path& file);
 
-/// Writes the files for repeating and inspecting a row: `config.yaml`, `plan.json` (if it has one), `row.json`. Returns
-/// the command that repeats the trial.
+/// Writes the files for repeating and inspecting a row: `config.yaml`, `plan.json` (if it has one), `row.json`, and, if
+/// the trial kept its search trees, `search_trees.json` and their pictures in `search_trees.html`. Returns the command
+/// that repeats the trial.
 DISMANTLE_API std::string write_row(const ReportRow& row, const std::filesystem::path& folder);
 
 }  // namespace dismantle::bench

@@ -48,6 +48,13 @@ struct SuiteVariant {
   std::vector<std::string> planners;  ///< empty: all
 };
 
+/// A table of the suite's own in the reports: the mean of some figures for each planner.
+struct SuiteTable {
+  std::string id, title, note;
+  std::vector<std::string> columns;  ///< numeric columns of the trials, counts.NAME or checks.NAME
+  bool all_trials = false;           ///< false: only of trials on assemblies that all planners solved
+};
+
 struct Suite {
   std::filesystem::path file;
   std::string name, text;
@@ -59,6 +66,8 @@ struct Suite {
   double max_penetration =
       kDefaultTolerance;    ///< assembly units; the verifier's tolerance, overrides planners' configurations
   double verify_cpu = 600;  ///< CPU seconds of the verifying process; it is killed after twice that of wall-clock time
+  std::vector<SuiteTable> tables;
+  std::int64_t search_nodes = 0;   ///< nodes of search trees that each trial keeps
   std::vector<std::string> notes;  ///< optional entries that were skipped, and why
 };
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "dismantle/export.h"
 #include "dismantle/parameters.h"
@@ -21,6 +22,8 @@ struct TrialRequest {
   std::filesystem::path inputs;   ///< folder for generated assemblies: samples, rotated ones, translated ones
   std::string input_name;         ///< name of a generated assembly in `inputs`
   double max_penetration = 0;     ///< the verifier's tolerance, for an assembly of size 10
+  std::vector<std::string> plugins;  ///< plugins.search_paths of the planner, for the verifier
+  std::size_t search_nodes = 0;      ///< nodes of search trees that the trial keeps
 };
 
 /// The files in the folder of a trial.
@@ -29,11 +32,13 @@ struct TrialFiles {
       : request(folder / "request.json"),
         result(folder / "result.json"),
         progress(folder / "progress.txt"),
+        searches(folder / "searches.txt"),
         plan(folder / "plan.json"),
         verification(folder / "verification.json") {}
   std::filesystem::path request;
   std::filesystem::path result;    ///< absent when the trial was killed or crashed
   std::filesystem::path progress;  ///< a line "seconds removed" per step
+  std::filesystem::path searches;  ///< what the searches for paths recorded: search_records.h
   std::filesystem::path plan;      ///< also saved during planning
   std::filesystem::path verification;
 };

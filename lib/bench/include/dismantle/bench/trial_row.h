@@ -3,6 +3,7 @@
 /// docs/benchmark.md.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -110,6 +111,28 @@ struct PluginUse {
   std::string section, type, plugin, version, file, sha256;
 };
 
+/// A search for a path had a better state than before.
+struct SearchPoint {
+  std::int64_t search = 0;  ///< number in its trial
+  double seconds = 0;       ///< of planning
+  double effort = 0;        ///< SearchStats::cost
+  double best = 0;          ///< way of the centre of a moving part, in largest edges of the assembly
+  std::string part;         ///< the first part that moves
+};
+
+/// A node of a search tree.
+struct SearchNode {
+  std::int64_t search = 0, node = 0;
+  std::int64_t parent = -1;  ///< -1: a root
+  double effort = 0;
+  std::array<double, 7> place{};  ///< centre of the first moving part, input units (3), and its rotation w, x, y, z
+};
+
+struct SearchRecords {
+  std::vector<SearchPoint> points;  ///< in the order of time
+  std::vector<SearchNode> nodes;    ///< parents before their children
+};
+
 /// A finished trial, as it is read from a database. Times in seconds.
 struct ReportRow : TrialPlan, TrialResult {
   std::filesystem::path database;
@@ -120,6 +143,7 @@ struct ReportRow : TrialPlan, TrialResult {
   /// solved by the same steps, or all not solved. Seeds of a planner that does not use them are no repetitions.
   std::size_t observation = 0;
   std::vector<std::pair<double, std::int64_t>> progress;  ///< seconds, parts removed
+  std::vector<SearchPoint> searches;
 };
 
 /// Calls visit(name, member, doc) for each column of the table.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dismantle/path/state_set.h"
+#include "dismantle/plugin/search_recorder.h"
 #include "dismantle/push/problem.h"
 #include "dismantle/push/reached.h"
 
@@ -19,9 +20,11 @@ namespace dismantle::push {
 class StateTree {
  public:
   /// `problem` outlives this.
-  explicit StateTree(const Problem& problem);
+  StateTree(const Problem& problem, const RunContext& context);
 
   void clear();
+  /// The work of the search so far, for its record.
+  void note_work(std::uint64_t work) { work_ = work; }
   /// Adds a state with velocity zero. It does not wait yet.
   std::int32_t add(std::int32_t parent, unsigned depth, const State& state, Path motion, bool middle);
   /// The state waits for its next stage, if it is not too deep.
@@ -68,6 +71,8 @@ class StateTree {
   };
 
   const Problem& problem_;
+  SearchRecord record_;
+  std::uint64_t work_ = 0;
   path::StateSet seen_, fine_;
   path::StateSet places_;  ///< expanded states, at a coarser resolution
   std::vector<Node> nodes_;
