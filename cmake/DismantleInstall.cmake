@@ -33,8 +33,17 @@ install(FILES
   DESTINATION "${DISMANTLE_PACKAGE_DIR}")
 
 install(DIRECTORY configs DESTINATION "${CMAKE_INSTALL_DATADIR}/dismantle" FILES_MATCHING PATTERN "*.yaml")
-install(FILES README.md LICENSE CHANGELOG.md CONTRIBUTING.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
-install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+# The pages, and what their links lead to, in folders as in the source: `cmake --install build/release --component pages`.
+install(FILES README.md LICENSE CHANGELOG.md CONTRIBUTING.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT pages)
+install(DIRECTORY docs configs DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT pages)
+file(GLOB_RECURSE linked RELATIVE "${PROJECT_SOURCE_DIR}" CONFIGURE_DEPENDS apps/*/README.md core/README.md lib/*/README.md
+  planners/*README.md plugins/*README.md simulators/*README.md tests/results/README.md lib/tools/catalogue/*.yaml
+  planners/sequence/*.h planners/sequence/*/run.cpp apps/python/examples/*.py plugins/templates/* tests/plugins_good/acme_*/*.cpp)
+list(FILTER linked EXCLUDE REGEX "node_modules|^build/")
+foreach(file IN LISTS linked ITEMS tools/packages.txt)
+  cmake_path(GET file PARENT_PATH folder)
+  install(FILES "${file}" DESTINATION "${CMAKE_INSTALL_DOCDIR}/${folder}" COMPONENT pages)
+endforeach()
 
 # The programs and the built-in plugins, without tests.
 get_property(built_in GLOBAL PROPERTY DISMANTLE_BUILT_IN_PLUGINS)

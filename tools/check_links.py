@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Checks the links in all Markdown pages to repository files and headings. Exit status 1: a link is broken."""
+"""Checks the links in all Markdown pages to files and headings, in the repository or in another FOLDER, such as that of an installed
+copy. Exit status 1: a link is broken."""
 import os
 import re
 import sys
 
-ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+ROOT = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 LINK = re.compile(r"(?<!\\)\[[^\]\n]*\]\(([^)\s]+)\)")
 SKIPPED = ("build", ".git", "node_modules")
 
