@@ -196,6 +196,12 @@ class Plugins(CliTest):
         self.assert_fails(2, "no_such_thing", "plugins", "describe", "no_such_thing")
 
 
+    def test_the_size_of_the_assembly_has_a_range(self):
+        self.run_program("sample", "l_slot", "-o", "in", status=0)
+        for size in ("0", "-1", "1e9"):
+            self.assert_fails(2, "assembly.size must be in [0.01, 10000]", "plan", "in", "-o", "out", "--set", f"assembly.size={size}")
+
+
 class Samples(CliTest):
     def test_every_sample_can_be_made_and_prepared(self):
         text = self.run_program("sample", "list", status=0).stdout

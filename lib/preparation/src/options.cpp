@@ -49,8 +49,8 @@ void PrepareOptions::describe(Schema<PrepareOptions>& s) {
                 "in input units."});
   s.add("size", &PrepareOptions::size,
         {.unit = "unit",
-         .min = 0.0,
-         .min_open = true,
+         .min = 0.01,
+         .max = 10000,
          .doc = "Longest edge of the assembly's box after scaling (step 7). Other defaults assume 10."});
   s.add("subdivide", &PrepareOptions::subdivide,
         {.unit = "unit",

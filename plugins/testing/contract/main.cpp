@@ -13,6 +13,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "selection.h"
 
@@ -31,6 +32,27 @@ A law that does not concern a plugin, by the capabilities that it declares, is s
 DISMANTLE_TESTS=nightly makes random trials more numerous, without a limit of time.
 Exit status: 0 all laws hold, 1 some do not, 2 wrong use or a plugin that is refused.
 )";
+
+/// "TakesApartWhatCanBeTakenApart/acme.x" as "acme.x: takes apart what can be taken apart".
+std::string sentence_of(const std::string& law) {
+  const std::size_t slash = law.find('/');
+  std::string words;
+  for (const char c : law.substr(0, slash)) {
+    const bool upper = c >= 'A' && c <= 'Z';
+    if (upper && !words.empty()) words += ' ';
+    words += upper ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return (slash == std::string::npos ? "" : law.substr(slash + 1) + ": ") + words;
+}
+
+/// Collects the laws that do not hold, as sentences.
+class Failures final : public testing::EmptyTestEventListener {
+ public:
+  void OnTestEnd(const testing::TestInfo& info) override {
+    if (info.result()->Failed()) laws.push_back(sentence_of(info.name()));
+  }
+  std::vector<std::string> laws;
+};
 
 /// Collects the skipped tests and the reasons.
 class Skips final : public testing::EmptyTestEventListener {
@@ -131,8 +153,12 @@ int main(int argc, char** argv) {
   testing::InitGoogleTest(&count, rest.data());
   auto* skips = new Skips;  // owned by Google Test
   testing::UnitTest::GetInstance()->listeners().Append(skips);
+  auto* failures = new Failures;
+  testing::UnitTest::GetInstance()->listeners().Append(failures);
   testing::UnitTest::GetInstance()->listeners().Append(new CurrentLaw);
   int status = RUN_ALL_TESTS();
+  if (!failures->laws.empty()) std::cout << "\nLaws that do not hold (docs/plugin-kinds.md; what was seen is above):\n";
+  for (const auto& law : failures->laws) std::cout << "  " << law << '\n';
   if (!skips->reasons.empty()) std::cout << "\nSkipped, by declared capabilities:\n";
   std::set<std::string> skipped;
   for (const auto& [law, reason] : skips->reasons) {

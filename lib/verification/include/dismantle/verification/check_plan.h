@@ -34,7 +34,7 @@ struct PlanCheck {
   std::vector<double> step_penetration;
   std::vector<double> forced_depth{};  ///< by step: as measured, assembly units; 0 for steps that are not forced
   std::size_t verdicts = 0;  ///< of step checks, judged again by judge_again() (dismantle/engine/judgement.h)
-  std::vector<std::string> not_checked{};  ///< "'acme.x': ...": step checks and certificates whose plugin is not available
+  std::vector<std::string> not_checked{};  ///< "'acme.x': ...": checks and proofs whose plugin is not available
   std::vector<PlanProblem> problems;
 };
 
