@@ -9,6 +9,7 @@ namespace dismantle::statics {
 namespace {
 
 constexpr double kBalanced = 1e-6;
+constexpr unsigned kFewSteps = 25;  // of Newton's method: the next program may be harder
 
 Balance result_of(const Springs& springs, const Eigen::VectorXd& anchor, bool balanced) {
   Balance result{balanced, springs.residual(anchor), springs.forces(), springs.motion_of(springs.at()),
@@ -21,10 +22,15 @@ Balance associated(Springs& springs, const std::function<bool()>& stop) {
   Eigen::VectorXd anchor = springs.at();
   for (int k = 0; k < 40; ++k) {
     anchor = springs.at();
-    if (!springs.minimize(anchor, stop)) break;
+    const unsigned before = springs.factorizations();
+    if (!springs.minimize(anchor, stop)) {
+      if (stop && stop()) break;
+      if (!springs.shorten_steps()) break;
+      continue;
+    }
     if (springs.residual(anchor) < kBalanced) return result_of(springs, anchor, true);
     if (check_fall(springs.pile(), springs.motion_of(springs.at() - anchor)).empty()) break;
-    springs.lengthen_steps();
+    if (springs.factorizations() - before <= kFewSteps) springs.lengthen_steps();
   }
   return result_of(springs, anchor, false);
 }
@@ -35,6 +41,7 @@ Balance coulomb(Springs& springs, const std::function<bool()>& stop) {
   int since = 0;
   for (int k = 0; k < 200; ++k) {
     anchor = springs.at();
+    const unsigned before = springs.factorizations();
     springs.minimize(anchor, stop);  // a step that did not converge is a step nevertheless
     if (stop && stop()) break;
     const double residual = springs.residual(anchor), change = springs.update_limits(share);
@@ -44,6 +51,8 @@ Balance coulomb(Springs& springs, const std::function<bool()>& stop) {
       return result_of(springs, anchor, true);
     }
     if (k % 4 == 2 && springs.solve_coupled(stop)) return result_of(springs, springs.at(), true);
+    // Long chains give way far: the proximal term alone holds them back.
+    if (residual > change && springs.factorizations() - before <= kFewSteps) springs.lengthen_steps();
     if (worst < 0.9 * best) {
       best = worst;
       since = 0;

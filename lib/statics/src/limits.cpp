@@ -14,7 +14,7 @@ using Vec3 = Eigen::Vector3d;
 using Stop = std::function<bool()>;
 
 constexpr double kSteepest = 89 * M_PI / 180;
-constexpr int kCuts = 50, kHalvings = 14;
+constexpr int kCuts = 50, kHalvings = 14, kTilts = 8;
 
 /// Work of the weights in a motion when gravity points to `down`.
 double work(const Pile& pile, const Motions& motion, const Vec3& down) {
@@ -83,9 +83,18 @@ std::optional<double> critical_tilt(const Pile& pile, const Vec3& axis, const St
   if (judge(pile, stop).verdict != Verdict::stands) return 0.0;
   double high = balanced_up_to(pile, axis, kSteepest, stop), low = 0;
   const auto stands = [&](double angle) { return judge(tilted(pile, axis, angle), stop).verdict == Verdict::stands; };
-  if (high == kSteepest && stands(high)) return std::nullopt;
-  if (stands(0.995 * high)) return high;
-  high *= 0.995;
+  // What is pressed in at one angle may stand at a larger one: the first angle counts.
+  const double steepest = high;
+  for (int k = 1; k <= kTilts; ++k) {
+    const double share = k < kTilts ? static_cast<double>(k) / kTilts : steepest == kSteepest ? 1 : 0.995;
+    const double angle = share * steepest;
+    if (!stands(angle)) {
+      high = angle;
+      break;
+    }
+    low = angle;
+  }
+  if (low > 0.99 * steepest) return steepest == kSteepest ? std::nullopt : std::optional(steepest);
   for (int k = 0; k < kHalvings && high - low > 1e-3 && !(stop && stop()); ++k)
     (stands(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
   return 0.5 * (low + high);

@@ -17,15 +17,16 @@ using Eigen::VectorXd;
 
 /// Weight of the proximal term against the stiffness of a contact, at first and at least. Small: few programs; large:
 /// well-conditioned ones, and few steps of Newton's method from afar.
-constexpr double kProximal = 1e-4, kProximalLeast = 1e-8;
+constexpr double kProximal = 1e-4, kProximalLeast = 1e-8, kProximalMost = 1;
 /// The same for Coulomb's law itself: only against exact singularity.
 constexpr double kProximalCoupled = 1e-9;
-constexpr int kNewtonSteps = 100, kCoupledSteps = 25, kLineSteps = 12;
+constexpr int kNewtonSteps = 60, kCoupledSteps = 25, kLineSteps = 12;
 constexpr double kLineShare = 0.1;  // of the slope at the start: a shorter step is no better for Newton's method
 
 }  // namespace
 
-Springs::Springs(const Pile& pile, FrictionLaw law) : pile_(pile), law_(law), unit_(0), proximal_(kProximal) {
+Springs::Springs(const Pile& pile, FrictionLaw law)
+    : pile_(pile), law_(law), unit_(0), proximal_(kProximal), proximal_least_(kProximalLeast) {
   Index size = 0;
   for (const Body& b : pile.bodies) {
     first_.push_back(b.fixed ? -1 : size);
@@ -36,6 +37,10 @@ Springs::Springs(const Pile& pile, FrictionLaw law) : pile_(pile), law_(law), un
     }
   }
   if (!(unit_ > 0)) unit_ = 1;
+  // A chain of n contacts gives way n^2 times as far as one. With Coulomb's law steps are no longer than that takes:
+  // far away, a certificate's tolerance is large.
+  const auto bodies = static_cast<double>(std::max<Index>(1, size / 6));
+  if (law == FrictionLaw::coulomb) proximal_least_ = std::min(kProximal, 100 * kProximal / (bodies * bodies));
   load_ = VectorXd::Zero(size);
   scale_ = VectorXd::Ones(size);
   for (std::size_t i = 0; i < pile.bodies.size(); ++i) {
@@ -244,7 +249,13 @@ VectorXd Springs::derivatives(const VectorXd& anchor, bool coupled, Blocks& bloc
   return gradient - forces;
 }
 
-void Springs::lengthen_steps() { proximal_ = std::max(kProximalLeast, 0.1 * proximal_); }
+void Springs::lengthen_steps() { proximal_ = std::max(proximal_least_, 0.1 * proximal_); }
+
+bool Springs::shorten_steps() {
+  if (proximal_ >= kProximalMost) return false;
+  proximal_ = std::min(kProximalMost, 10 * proximal_);
+  return true;
+}
 
 bool Springs::minimize(const VectorXd& anchor, const std::function<bool()>& stop) {
   double steepest = std::numeric_limits<double>::infinity();

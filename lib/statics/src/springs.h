@@ -23,6 +23,8 @@ class Springs {
   bool minimize(const Eigen::VectorXd& anchor, const std::function<bool()>& stop);
   /// A smaller weight of the proximal term from now on.
   void lengthen_steps();
+  /// A larger one. False: it is as large as it can be.
+  bool shorten_steps();
   /// Coulomb: moves the limits of friction by a share of the way to those of the present pressure; returns the largest
   /// distance, as a share of the whole weight.
   double update_limits(double share = 1);
@@ -84,8 +86,8 @@ class Springs {
 
   const Pile& pile_;
   FrictionLaw law_;
-  double unit_;      // weight of everything that can move
-  double proximal_;  // weight of the proximal term
+  double unit_;                       // weight of everything that can move
+  double proximal_, proximal_least_;  // weight of the proximal term
   std::vector<Eigen::Index> first_;
   std::vector<Pair> pairs_;
   std::vector<Point> points_;         // by pair

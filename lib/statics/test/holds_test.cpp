@@ -6,6 +6,7 @@
 #include <random>
 
 #include "dismantle/statics/certificates.h"
+#include "dismantle/testing/trials.h"
 #include "piles.h"
 
 namespace dismantle::statics {
@@ -53,6 +54,37 @@ TEST(Holds, CarryTheProofThatFewerDoNotSuffice) {
   }
   EXPECT_GT(groups, 20u);
   EXPECT_GT(proved, 80u);
+}
+
+/// The least number of bodies that have to be fixed so that `stands`, by trying all sets.
+template <class Stands>
+std::size_t by_brute_force(const Pile& pile, Stands&& stands) {
+  const auto n = static_cast<unsigned>(pile.bodies.size());
+  for (int count = 0;; ++count)
+    for (unsigned set = 0; set < (1u << n); ++set) {
+      if (__builtin_popcount(set) != count) continue;
+      Pile held = pile;
+      for (unsigned i = 0; i < n; ++i)
+        if ((set >> i & 1u) != 0) held.bodies[i].fixed = true;
+      if (stands(held)) return static_cast<std::size_t>(count);
+    }
+}
+
+TEST(Holds, AreAsFewAsBruteForceFinds) {
+  std::mt19937 random(17);
+  const int trials = testing_support::trials(25, 500);
+  std::size_t most = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    SCOPED_TRACE(trial);
+    const int n = 2 + static_cast<int>(random() % 8);
+    const Pile pile = pile_of(trial % 2 == 0 ? random_blocks(random, n) : random_boxes(random, n), 1, 0.4);
+    const Holds holds = least_holds(pile);
+    ASSERT_TRUE(holds.found);
+    EXPECT_EQ(holds.held.size(),
+              by_brute_force(pile, [](const Pile& p) { return judge(p).verdict == Verdict::stands; }));
+    most = std::max(most, holds.held.size());
+  }
+  EXPECT_GT(most, 1u);
 }
 
 }  // namespace

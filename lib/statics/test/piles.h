@@ -44,6 +44,30 @@ inline std::vector<Mesh> random_blocks(std::mt19937& random, int n) {
   return meshes;
 }
 
+/// Random boxes on a ground: each on what is under it, some of them on two or three others.
+inline std::vector<Mesh> random_boxes(std::mt19937& random, int n) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<Mesh> meshes{box({-8, -8, -1}, {8, 8, 0})};
+  for (int k = 0; k < n; ++k) {
+    const Eigen::Vector3d half(0.4 + 0.8 * unit(random), 0.4 + 0.8 * unit(random),
+                               0.2 + 0.1 * static_cast<double>(random() % 3));
+    Eigen::Vector3d at(6 * unit(random) - 3, 6 * unit(random) - 3, 0);
+    if (k > 0 && unit(random) < 0.7) {  // near the middle of another
+      const Aabb other = meshes[1 + random() % static_cast<unsigned>(k)].box();
+      for (int axis = 0; axis < 2; ++axis)
+        at[axis] = other.center()[axis] + 0.3 * (unit(random) - 0.5) * other.size()[axis];
+    }
+    for (std::size_t i = 1; i < meshes.size(); ++i) {
+      const Aabb under = meshes[i].box();
+      const Eigen::Vector3d apart = (under.center() - at).cwiseAbs() - half - 0.5 * under.size();
+      if (apart.x() < 0 && apart.y() < 0) at.z() = std::max(at.z(), under.hi.z());
+    }
+    at.z() += half.z();
+    meshes.push_back(box(at - half, at + half));
+  }
+  return meshes;
+}
+
 /// Density 1; the first `fixed` meshes do not move.
 inline Pile pile_of(const std::vector<Mesh>& meshes, std::size_t fixed, double friction, double touching = kTouching) {
   std::vector<Shape> shapes;
