@@ -79,3 +79,18 @@ class Stability(CliTest):
             done = self.run_program("stability", "low", *option)
             self.assertEqual(done.returncode, 2, f"{option} {done.stderr}")
             self.assertIn(option[0], done.stderr)
+
+    def test_a_dome_takes_no_more_hands_than_are_required(self):
+        # Two hands are needed in any order (tests/stability/dome_test.cpp); the same with 74 parts takes three, too.
+        self.run_program("sample", "dome", "-o", "dome", "--set", "rings=4", "--set", "segments=8", status=0)
+        self.run_program("plan", "dome", "-o", "out", "--set", "objective=[{type: gravity, fixed: ground, hands: 3, require: true}]", "-q", status=0)
+        plan = json.loads(self.read("out", "plan.json"))
+        notes = [n for step in plan["disassembly"] for check in step["checks"] for n in check.get("notes", [])]
+        hands = []
+        for note in notes:
+            if note["kind"] == "hold":
+                data = note["data"]
+                hands.append((json.loads(data) if isinstance(data, str) else data)["hands"])
+        self.assertGreater(len(hands), 5)
+        self.assertLessEqual(max(hands), 3)
+        self.run_program("verify", "out/plan.json", "--assembly", "dome", status=0)
