@@ -5,8 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "blocking_graph/graph.h"
-
 namespace dismantle::blocking {
 namespace {
 
@@ -71,49 +69,6 @@ double StraightMotion::gap_of(const Pair& p) const {
   return relations_.extent(p.fixed, p.direction, p.orientation_fixed).first -
          relations_.extent(p.moving, p.direction, p.orientation_moving).second -
          p.offset.dot(directions_.all[p.direction]);
-}
-
-/// Index of a member that blocks another one and is not `inside`: one that is known to, else the nearest.
-std::optional<std::size_t> StraightMotion::blocker_outside(const GroupState& group, std::size_t member,
-                                                           std::size_t direction,
-                                                           const std::function<bool(std::size_t)>& inside) {
-  struct Question {
-    double gap;
-    std::size_t other;
-    Pair pair;
-  };
-  std::vector<Question> questions;
-  for (std::size_t other = 0; other < group.members.size(); ++other) {
-    if (other == member || inside(other)) continue;
-    for (const Pair& pair : pairs_of(group.members[member], group.members[other], direction)) {
-      if (relations_.known_to_block(pair)) return other;
-      if (!relations_.known(pair)) questions.push_back({gap_of(pair), other, pair});
-    }
-  }
-  std::stable_sort(questions.begin(), questions.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
-  if (relations_.wants_hints()) {
-    std::vector<Pair> pairs;
-    for (const Question& q : questions) pairs.push_back(q.pair);
-    relations_.hint({pairs});
-  }
-  for (const Question& q : questions) {
-    if (state_.stop()) return std::nullopt;
-    if (relations_.blocks(q.pair)) return q.other;
-  }
-  return std::nullopt;
-}
-
-std::vector<Subassemblies> StraightMotion::free_groups(const GroupState& group, std::size_t direction) {
-  const auto found = blocking::free_groups(group.members.size(), [&](std::size_t member, const auto& inside) {
-    return blocker_outside(group, member, direction, inside);
-  });
-  if (state_.stop()) return {};
-  std::vector<Subassemblies> groups;
-  for (const auto& indices : found) {
-    groups.emplace_back();
-    for (const std::size_t i : indices) groups.back().push_back(group.members[i]);
-  }
-  return groups;
 }
 
 Subassemblies StraightMotion::fewest_blockers(const GroupState& group, SubassemblyId id,
