@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -61,6 +62,22 @@ TEST(Gravity, ABeamTipsAboutTheEdgeOfItsSupport) {
     const std::string towards = shift > 0 ? "tips towards +x" : "tips towards -x";
     EXPECT_NE(verdict.notes.at(0).text.find(towards), std::string::npos) << verdict.notes[0].text;
   }
+}
+
+// A brick that hangs over, with a stud of the brick below in it: nothing is drawn that would hold it.
+TEST(Gravity, BricksOfLDrawModelsHoldEachOther) {
+  Mesh below = block(-1, -1, 0, 2, 2, 1), above = block(-0.6, -1, 1.2, 4, 2, 0.8);
+  shapes::append(below, block(-0.3, -0.3, 1, 0.6, 0.6, 0.2));
+  for (const auto& [x, y, dx, dy] : {std::array{-0.6, -1.0, 0.3, 2.0}, {0.3, -1.0, 3.1, 2.0}})
+    shapes::append(above, block(x, y, 1, dx, dy, 0.2));
+  Scene scene({below, above});
+  EXPECT_EQ(Gravity().judge(scene.question(), RunContext{}).cost, 1);
+  for (Part& part : scene.assembly.parts) part.file = "model.mpd";
+  EXPECT_EQ(Gravity().judge(scene.question(), RunContext{}).cost, 0);
+  // Side by side they do not.
+  Scene beside({block(-1, -1, 0, 2, 2, 1), block(1, -1, 0.5, 2, 2, 1)});
+  for (Part& part : beside.assembly.parts) part.file = "model.mpd";
+  EXPECT_EQ(Gravity().judge(beside.question(), RunContext{}).cost, 1);
 }
 
 // A counterweight: the estimate, for which the rest does not move, sees nothing of it.
