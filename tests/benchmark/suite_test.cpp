@@ -242,5 +242,26 @@ TEST(Suites, OfTheProject) {
   EXPECT_GE(found, 4u);
 }
 
+TEST_F(SuiteTest, TablesNameColumnsOfTrialsCountsAndChecks) {
+  const Suite suite =
+      read_suite(write(std::string(kGood) +
+                       "tables:\n  - {id: a.b, columns: [steps, counts.x, checks.y], trials: all}\nsearch_nodes: 9\n"));
+  ASSERT_EQ(suite.tables.size(), 1u);
+  EXPECT_EQ(suite.tables[0].title, "a.b");
+  EXPECT_EQ(suite.tables[0].columns, (std::vector<std::string>{"steps", "counts.x", "checks.y"}));
+  EXPECT_TRUE(suite.tables[0].all_trials);
+  EXPECT_EQ(suite.search_nodes, 9);
+  const auto wrong = problems(std::string(kGood) +
+                              "tables:\n"
+                              "  - {id: ok, columns: [step, outcome, counts.]}\n"
+                              "  - {id: time, columns: [steps]}\n"
+                              "  - {id: Bad, columns: []}\n"
+                              "plugins: {search_paths: [nowhere]}\n");
+  ASSERT_EQ(wrong.size(), 7u) << testing::PrintToString(wrong);
+  EXPECT_NE(wrong[0].find("did you mean 'steps'"), std::string::npos) << wrong[0];
+  EXPECT_NE(wrong[3].find("there is already a table 'time'"), std::string::npos) << wrong[3];
+  EXPECT_NE(wrong[6].find("does not exist"), std::string::npos) << wrong[6];
+}
+
 }  // namespace
 }  // namespace dismantle::bench
