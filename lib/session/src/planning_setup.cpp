@@ -45,12 +45,28 @@ std::vector<PluginChoice> checks_of(const RunConfig& config, const Registry& reg
   return objective;
 }
 
+/// `blocking` finds the first plan of a `best_order` upwards, unless stated otherwise: with the base at the end, that
+/// is close to what objectives like.
+void look_upwards(PluginChoice& choice) {
+  if (choice.type == "blocking") {
+    ParamValue& upwards = choice.parameters.try_emplace("upwards", "auto").first->second;
+    if (upwards == ParamValue("auto")) upwards = "on";
+  }
+  for (auto& [name, value] : choice.parameters) {
+    if (auto* one = std::get_if<PluginChoice>(&value)) look_upwards(*one);
+    if (auto* many = std::get_if<std::vector<PluginChoice>>(&value))
+      for (PluginChoice& inner : *many) look_upwards(inner);
+  }
+}
+
 /// The same in a `best_order`, if there is an objective.
 PluginChoice with_best_order(const RunConfig& config, const Registry& registry, PluginChoice sequence) {
-  if (!config.run.best_order || checks_of(config, registry).empty() || names(sequence, "best_order") ||
-      registry.lookup(PluginKind::sequence_planner, "best_order") == nullptr)
+  if (checks_of(config, registry).empty()) return sequence;
+  const bool wrapped = names(sequence, "best_order");
+  if (!wrapped && (!config.run.best_order || registry.lookup(PluginKind::sequence_planner, "best_order") == nullptr))
     return sequence;
-  return {"best_order", {{"of", std::move(sequence)}}, {}};
+  look_upwards(sequence);
+  return wrapped ? sequence : PluginChoice{"best_order", {{"of", std::move(sequence)}}, {}};
 }
 
 }  // namespace

@@ -7,10 +7,14 @@ void BlockingParams::describe(Schema<BlockingParams>& s) {
   s.add("straight", &BlockingParams::straight,
         {.doc = "Remove parts along straight lines where nothing blocks them (strategies target_first, "
                 "free_part). Off: free_group, rotation_in_place and simultaneous_motion are off, too."});
-  s.add("upwards", &BlockingParams::upwards,
-        {.doc = "Parts that can leave straight up (layout.up) leave first, then parts and groups that can leave "
-                "sideways, and at last what leaves downwards. The reverse puts the base down first, and what is on it "
-                "from above."});
+  s.add_choice(
+      "upwards", &BlockingParams::upwards,
+      {{"auto", blocking::Upwards::automatic, "on inside a best_order, otherwise off"},
+       {"on", blocking::Upwards::on,
+        "parts that can leave straight up (layout.up) leave first, then parts and groups that can leave sideways, "
+        "at last what leaves downwards: the reverse puts the base down first, and what is on it from above"},
+       {"off", blocking::Upwards::off, "directions are all the same"}},
+      "Whether what leaves upwards goes first.");
   s.add("groups", &BlockingParams::groups,
         {.doc = "Strategy free_group: when no single part is free, remove the smallest free group and "
                 "disassemble it separately."});

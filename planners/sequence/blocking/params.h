@@ -10,12 +10,15 @@ namespace dismantle {
 
 namespace blocking {
 
+/// Whether what leaves upwards goes first. `automatic`: in a `best_order`, where the program says `on`.
+enum class Upwards { automatic, on, off };
+
 /// Straight removals: free_part, target_first, and the pairwise relations that other strategies use.
 struct StraightParams {
   bool straight = true;
   /// Parts that leave straight up go first, then parts and groups that leave sideways, at last what leaves downwards:
   /// the base stays to the end.
-  bool upwards = false;
+  Upwards upwards = Upwards::automatic;
 };
 
 struct FreeGroupParams {

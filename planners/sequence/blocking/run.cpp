@@ -39,7 +39,7 @@ Run::Run(const BlockingParams& params, const SequenceQuery& query, PathOracle& o
 void Run::make_strategies() {
   if (straight_) {
     list_.add(std::make_unique<TargetFirst>(state_, *straight_));
-    if (params_.upwards) {
+    if (params_.upwards == Upwards::on) {
       list_.add(std::make_unique<FreePart>(state_, *straight_, Course::up));
       list_.add(std::make_unique<FreePart>(state_, *straight_, Course::not_down));
       if (params_.groups)

@@ -74,7 +74,7 @@ TEST(Blocking, UpwardsLeavesTheBaseToTheEnd) {
       parts.push_back({"block" + std::to_string(k), {{{x, y, z}, {x + 1, y + 1, z + 1}}}});
     }
     BlockingParams params;
-    params.upwards = true;
+    params.upwards = blocking::Upwards::on;
     const RunResult r = take_apart(fake::assembly_of(parts), 1, {}, &helpless, {}, params);
     ASSERT_EQ(r.outcome, Outcome::solved);
     ASSERT_EQ(r.plan.disassembly.size(), n);
