@@ -21,7 +21,7 @@ namespace dismantle::app {
 namespace {
 
 struct Check {
-  std::string input, pictures;
+  std::string input, pictures, gallery;
   ConfigFlags config;
   ConsoleOptions console;
 };
@@ -51,7 +51,21 @@ void draw_pairs(AssemblyCheck& check, const Assembly& assembly, const Check& opt
     finding.picture = file.string();
   }
 }
+
+void write_gallery(const AssemblyCheck& check, const Assembly& assembly, const Check& options,
+                   const Eigen::Vector3d& up, const RunContext& context) {
+  const auto stop = [&] {
+    if (context.should_stop()) throw Error("stopped while drawing");
+  };
+  std::vector<std::string> order;
+  for (const CheckedKind& k : check.kinds) order.push_back(k.kind.kind);
+  write_file(options.gallery, book_library().kinds_html(assembly, order, up, stop));
+}
 #else
+void write_gallery(const AssemblyCheck&, const Assembly&, const Check&, const Eigen::Vector3d&, const RunContext&) {
+  throw Error("this program was built without pictures; install libpango1.0-dev and build again");
+}
+
 void draw_pairs(AssemblyCheck&, const Assembly&, const Check&, const Eigen::Vector3d&, const RunContext&) {
   throw Error("this program was built without pictures; install libpango1.0-dev and build again");
 }
@@ -70,8 +84,7 @@ int finish(const AssemblyCheck& check, const Check& options, bool usable, Consol
   if (options.console.quiet)
     for (const Finding& finding : check.findings)
       if (finding.severity == Severity::error) console.error(finding.message);
-  nlohmann::ordered_json json = {{"status", usable ? "complete" : "error"},
-                                 {"reason", reason(check, usable)}};
+  nlohmann::ordered_json json = {{"status", usable ? "complete" : "error"}, {"reason", reason(check, usable)}};
   json.update(nlohmann::ordered_json::parse(findings_json(check)));
   console.result(std::move(json));
   if (!usable) return kBadInput;
@@ -90,10 +103,13 @@ int check(const Check& options) {
         stoppable(context, [&] { return session.load(options.input, context, {.report = &report}); });
     const Assembly& assembly = *loaded.assembly;
     AssemblyCheck found = stoppable(context, [&] {
-      const double resolution = 0.01 * session.config().verify.max_penetration;  // far below the tolerance of the verifier
+      const double resolution =
+          0.01 * session.config().verify.max_penetration;  // far below the tolerance of the verifier
       return check_assembly(assembly, report, resolution, context);
     });
-    if (!options.pictures.empty()) draw_pairs(found, assembly, options, up_of(session.config().layout, assembly), context);
+    const Eigen::Vector3d up = up_of(session.config().layout, assembly);
+    if (!options.gallery.empty()) write_gallery(found, assembly, options, up, context);
+    if (!options.pictures.empty()) draw_pairs(found, assembly, options, up, context);
     return finish(found, options, true, console);
   } catch (const InputError&) {
     if (report.parts.empty()) throw;
@@ -111,10 +127,13 @@ void add_check(CLI::App& app, Action& action) {
       ->option_text(" ");
   command->add_option("--pictures", options->pictures, "Folder for a picture of each place where two parts overlap")
       ->option_text("DIR");
+  command->add_option("--gallery", options->gallery, "HTML file with a picture of each kind of part, to correct kinds")
+      ->option_text("FILE");
   options->config.add_file_and_set(*command);
   options->config.add_key(*command, "--unit", "assembly.unit", "UNIT", "Unit of an input that names none: mm, inch...");
   options->config.add_key(*command, "--threads", "run.threads", "N", "Threads, 0 = all cores");
-  options->config.add_key(*command, "--up", "layout.up", "x|y|z|-x|-y|-z|X,Y,Z", "What is up in the input's coordinates");
+  options->config.add_key(*command, "--up", "layout.up", "x|y|z|-x|-y|-z|X,Y,Z",
+                          "What is up in the input's coordinates");
   add_format(*command, options->console);
   add_verbosity(*command, options->console);
   command->footer(
@@ -126,6 +145,7 @@ void add_check(CLI::App& app, Action& action) {
       "Examples:\n"
       "  dismantle check gearbox/\n"
       "  dismantle check gearbox/ --pictures overlaps/\n"
+      "  dismantle check gearbox/ --gallery kinds.html\n"
       "  dismantle check gearbox/ --format json -q | tail -n 1");
   command->callback([&action, options] { action = [options] { return check(*options); }; });
 }

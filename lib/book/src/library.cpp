@@ -3,7 +3,7 @@
 namespace dismantle {
 
 const BookLibrary* dismantle_book_library() {
-  static const BookLibrary library{book_html, book_pdf, book_gif, pair_png};
+  static const BookLibrary library{book_html, book_pdf, book_gif, pair_png, kinds_html};
   return &library;
 }
 

@@ -69,6 +69,12 @@ DISMANTLE_API std::string book_gif(const Plan& plan, const Assembly& assembly, c
 DISMANTLE_API std::string pair_png(const Assembly& assembly, PartId other, PartId marked, const Eigen::Vector3d& at,
                                    const Eigen::Vector3d& up);
 
+/// One self-contained HTML file without scripts: a picture of every different part, what it is taken for, how sure that
+/// is and why, and the lines of a configuration that state it, to be corrected. `order`: of the kinds; others come
+/// last. `on_part` is called before each picture; it may throw to stop.
+DISMANTLE_API std::string kinds_html(const Assembly& assembly, const std::vector<std::string>& order,
+                                     const Eigen::Vector3d& up, const std::function<void()>& on_part);
+
 /// The functions above for programs that load the library on demand: linking pango and its dependencies would delay
 /// every start of the program by milliseconds.
 struct BookLibrary {
@@ -76,6 +82,8 @@ struct BookLibrary {
   std::string (*pdf)(const Plan&, const Assembly&, const BookOptions&);
   std::string (*gif)(const Plan&, const Assembly&, const FilmOptions&);
   std::string (*pair_png)(const Assembly&, PartId, PartId, const Eigen::Vector3d&, const Eigen::Vector3d&);
+  std::string (*kinds_html)(const Assembly&, const std::vector<std::string>&, const Eigen::Vector3d&,
+                            const std::function<void()>&);
 };
 extern "C" DISMANTLE_API const BookLibrary* dismantle_book_library();
 
