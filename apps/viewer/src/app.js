@@ -9,7 +9,7 @@ const SEEN_THROUGH = 0.5;
 export class App {
   constructor(model) {
     this.model = model;
-    this.stage = this.parts = this.trails = this.places = this.section = this.measure = null;
+    this.stage = this.parts = this.trails = this.places = this.section = this.measure = this.tools = null;
     this.mode = 'disassembly';
     this.time = 0;
     this.playing = false;
@@ -42,8 +42,8 @@ export class App {
     for (const listener of this.listeners) listener(what);
   }
 
-  show(stage, parts, trails, places) {
-    Object.assign(this, {stage, parts, trails, places});
+  show(stage, parts, trails, places, tools) {
+    Object.assign(this, {stage, parts, trails, places, tools});
     stage.onFrame = seconds => this.frame(seconds);
     this.paint();
     this.place();
@@ -178,6 +178,12 @@ export class App {
     this.tell('display');
   }
 
+  setTools(on) {
+    this.tools.on = on;
+    this.stale = true;
+    this.tell('display');
+  }
+
   setFading(on) {
     this.fading = on;
     this.stale = true;
@@ -297,6 +303,8 @@ export class App {
     this.trails.lie(this.lies);
     this.places.lie(this.lies);
     this.section?.lie(this.lies);
+    this.tools.lie(this.lies);
+    this.tools.place(this.time, !best && this.explode === 0);
     this.stale = false;
     this.stage.invalidate(true);
   }
@@ -324,6 +332,8 @@ export class App {
       if (this.trailing === 'all') indices = this.line.steps.map((_, i) => i);
     }
     this.trails.show(this.mode, indices, this.colours, this.stage.up.toArray());
+    this.tools.show(this.mode, this.step);
+    this.stale = true;
     this.stage.invalidate();
   }
 

@@ -37,6 +37,7 @@ export function expose(app, display) {
     /** Where a point of a part is on the screen, CSS pixels of the scene. */
     onScreen: (name, point) => { now(); return app.stage.onScreen(app.parts.shownPoint(index(name), point).map((x, k) => x - model.origin[k])); },
     places: () => app.places.shown(),
+    tools: () => { now(); return app.tools.shown(); },
     seek: time => app.seek(time),
     play: on => app.play(on),
     setMode: mode => app.setMode(mode),

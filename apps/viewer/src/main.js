@@ -10,6 +10,7 @@ import {Picker} from './scene/picker.js';
 import {Places} from './scene/places.js';
 import {Section} from './scene/section.js';
 import {Stage} from './scene/stage.js';
+import {Tools} from './scene/tools.js';
 import {Trails} from './scene/trails.js';
 import {followAddress} from './ui/address.js';
 import {element} from './ui/dom.js';
@@ -68,7 +69,7 @@ function start() {
   if (stage) {
     if (display.up[2] !== 1) stage.setUp(display.up);
     const parts = new Parts(app.model, stage.scene);
-    app.show(stage, parts, new Trails(app.model, stage.scene), new Places(app.model, stage.scene));
+    app.show(stage, parts, new Trails(app.model, stage.scene), new Places(app.model, stage.scene), new Tools(app.model, stage.scene));
     display.apply();
     const section = new Section(stage, parts), measure = new Measure(stage, parts);
     Object.assign(app, {section, measure});

@@ -26,6 +26,7 @@ export class Model {
     const forced = plan.disassembly.filter(isBad).flatMap(s => s.moves.map(m => this.index.get(m.part)));
     this.forced = new Set(forced);
     this.remaining = new Set(plan.remaining.map(name => this.index.get(name)));
+    this.hasTools = ['disassembly', 'assembly'].some(mode => view.steps[mode].some(s => s.tools));
     this.hasColours = plan.assembly.parts.some(p => given(p) !== null);
   }
 

@@ -16,6 +16,7 @@
 #include "dismantle/plan_io/step_numbers.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/text_columns.h"
+#include "dismantle/plan_io/thread_words.h"
 #include "dismantle/plan_io/travel.h"
 #include "items.h"
 
@@ -81,8 +82,10 @@ class ContentWriter {
   void add_to_box(BookPage& page, std::size_t item, std::size_t count) const {
     const std::size_t number = content_.items[item].number;
     const auto same = std::ranges::find(page.box, number, &BoxEntry::item);
-    if (same != page.box.end()) same->count += count;
-    else page.box.push_back({number, count, content_.items[item].picture});
+    if (same != page.box.end())
+      same->count += count;
+    else
+      page.box.push_back({number, count, content_.items[item].picture});
   }
 
   /// The notes of the reader of the plan on what this step moves.
@@ -230,7 +233,8 @@ class ContentWriter {
       } else {
         for (const PlanComponent* c : whole) {
           const auto item = numbers_.of_component.find(c->name);
-          page.moving.emplace_back(item == numbers_.of_component.end() ? 0 : content_.items[item->second].number, c->name);
+          page.moving.emplace_back(item == numbers_.of_component.end() ? 0 : content_.items[item->second].number,
+                                   c->name);
           if (item != numbers_.of_component.end()) add_to_box(page, item->second, 1);
         }
         for (const std::string& name : others) page.moving.emplace_back(0, name);
@@ -239,14 +243,16 @@ class ContentWriter {
           page.moving.emplace_back(content_.items[item].number, n == 1 ? name : fmt::format("{} × {}", n, name));
           add_to_box(page, item, n);
           for (const std::size_t i : mover.parts)
-            if (numbers_.of_part[i] == item && assembly_.parts[i].name != name) instances.push_back(assembly_.parts[i].name);
+            if (numbers_.of_part[i] == item && assembly_.parts[i].name != name)
+              instances.push_back(assembly_.parts[i].name);
         }
       }
       const MotionSummary motion = summarize_motion(mover.poses, mover.center, leg_tolerance(size_));
       const std::optional<double> guided = guided_distance_of(step, mover, motion);
       const std::string who = step.movers.size() > 1 ? names_of(mover.parts) + ": " : "";
-      page.motions.push_back(who + words_.text(travel_words(motion, guided, {unit_, frame_.up, size_, options_.disassembly},
-                                                            frame_.lies(step.up))));
+      page.motions.push_back(who +
+                             words_.text(travel_words(motion, guided, {unit_, frame_.up, size_, options_.disassembly},
+                                                      frame_.lies(step.up))));
       add_vectors(motion, guided, who, page.facts);
     }
     if (step.movers.empty()) page.motions.push_back(words_.label("it is apart already: nothing has to move"));
@@ -270,6 +276,7 @@ class ContentWriter {
     }
     if (step.forced && !step.forced->accepted.empty())
       page.facts.emplace_back(step.forced->accepted, forced_text(unit_, *step.forced));
+    for (const std::string& cut : thread_words(plan_, step)) fact(page.facts, "note", words_.text(cut + "."));
     for (const PlanVerdict& v : step.checks)
       for (const StepNote& note : v.notes) {
         const std::vector<std::string> held = held_by(note);

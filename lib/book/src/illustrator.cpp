@@ -281,8 +281,18 @@ StepPictures Illustrator::step(const BookStep& step, bool disassembly, double sc
   ring_specks(out.apart, away, camera);
   std::vector<Eigen::Vector3d> whole = corners(step.standing);
   whole.insert(whole.end(), there.begin(), there.end());
+  std::vector<DrawnBody> in_place = bodies_with(placed);
+  std::vector<ShadedMesh> tools;
+  tools.reserve(step.tools.size());  // bodies point to them
+  for (const DrawnTool& tool : step.tools) {
+    Mesh solid = mesh_of(tool, tool.tool);
+    whole.insert(whole.end(), solid.vertices.begin(), solid.vertices.end());
+    for (auto& v : solid.vertices) v -= tool.origin;
+    tools.push_back(shade(solid));
+    in_place.push_back({&tools.back(), {tool.origin, Eigen::Quaterniond::Identity()}, style_.tool, false});
+  }
   const Camera around = camera_for(whole, axes, small_width, small_height);
-  out.placed.image = draw(bodies_with(placed), around, small_width, small_height, style_.lines);
+  out.placed.image = draw(in_place, around, small_width, small_height, style_.lines);
   ring_specks(out.placed, placed, around);
   return out;
 }
@@ -294,7 +304,8 @@ Image Illustrator::moment(const BookStep& step, const std::vector<PlacedPart>& m
   std::vector<Eigen::Vector3d> whole;  // the same camera in all steps
   const Aabb& box = assembly_.input_box;
   for (int c = 0; c < 8; ++c)
-    whole.emplace_back((c & 1) ? box.hi.x() : box.lo.x(), (c & 2) ? box.hi.y() : box.lo.y(), (c & 4) ? box.hi.z() : box.lo.z());
+    whole.emplace_back((c & 1) ? box.hi.x() : box.lo.x(), (c & 2) ? box.hi.y() : box.lo.y(),
+                       (c & 4) ? box.hi.z() : box.lo.z());
   Camera camera = camera_for(whole, axes_of({}, frame_.lies(step.up)), size.width, size.height);
   camera.scale *= style_.film;
   return draw(bodies, camera, size.width, size.height, style_.lines);
@@ -302,7 +313,8 @@ Image Illustrator::moment(const BookStep& step, const std::vector<PlacedPart>& m
 
 std::string caption_of(const StepPictures& pictures, const BookWords& words) {
   std::string out;
-  if (!pictures.view.usual()) out = fmt::format(fmt::runtime(words.label("seen {}")), words.text(pictures.view.words()));
+  if (!pictures.view.usual())
+    out = fmt::format(fmt::runtime(words.label("seen {}")), words.text(pictures.view.words()));
   if (pictures.stretched) out += (out.empty() ? "" : "; ") + words.label("drawn further apart than needed");
   return out;
 }

@@ -104,6 +104,13 @@ class InstructionWriter {
     out.number = step_number(plan_, s, disassembly_);
     out.plan_step = s;
     if (step.up) out.up = base.front().q.conjugate() * *step.up;
+    for (DrawnTool& tool : drawn_tools(step.checks)) {
+      const Pose back = base.front().inverse();
+      tool.origin = back * tool.origin;
+      tool.axis = back.q * tool.axis;
+      tool.x = back.q * tool.x;
+      out.tools.push_back(std::move(tool));
+    }
     for (const std::size_t part : whole) {
       std::vector<Pose> poses = poses_of(part);
       for (std::size_t k = 0; k < count; ++k) poses[k] = base[k].inverse() * poses[k];

@@ -9,6 +9,7 @@
 
 #include "dismantle/assembly.h"
 #include "dismantle/plan.h"
+#include "dismantle/plan_io/drawn_tools.h"
 #include "dismantle/pose.h"
 
 namespace dismantle {
@@ -33,7 +34,8 @@ struct BookStep {
   std::vector<PlacedPart> standing;  ///< the parts that do not move
   std::vector<BookMover> movers;
   std::optional<Eigen::Vector3d> up{};  ///< unit; of the assembly while it lies for this step; none: as drawn
-  bool shifts_only = false;  ///< no part joins or leaves: the parts only move aside
+  std::vector<DrawnTool> tools{};       ///< on what is put in, at the end of the assembly operation
+  bool shifts_only = false;             ///< no part joins or leaves: the parts only move aside
 };
 
 struct BookChapter {

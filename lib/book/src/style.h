@@ -39,6 +39,7 @@ struct PictureStyle {
   double better_view = 1.5;         ///< another viewpoint is chosen if this many times more of the part is visible
   PictureSize view_test{160, 120};  ///< size of the drawings for comparing viewpoints
   Eigen::Vector3f accent{0.98f, 0.62f, 0.10f};  ///< of moving parts
+  Eigen::Vector3f tool{0.18f, 0.60f, 0.47f};
   LineStyle lines;
 };
 

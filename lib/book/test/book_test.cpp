@@ -55,7 +55,8 @@ TEST(Instructions, EachPartJoinsOnceAndEndsWhereItBelongs) {
   }
 }
 
-// A step has one number in each mode: that of the page and of the lists, also where sub-assemblies are built in between.
+// A step has one number in each mode: that of the page and of the lists, also where sub-assemblies are built in
+// between.
 TEST(Instructions, StepsHaveTheNumbersOfThePlan) {
   std::mt19937 random(15);
   for (int trial = 0; trial < 20; ++trial) {
@@ -183,13 +184,15 @@ TEST(Book, AThickBookHasATableOfContents) {
   const Assembly assembly = row_of(8);
   const Plan plan = random_plan(assembly, random);
   const std::string html = book_html(plan, assembly, {});
-  const std::string contents = html.substr(html.find("id=\"contents\""), html.find("Bill of materials") - html.find("id=\"contents\""));
+  const std::string contents =
+      html.substr(html.find("id=\"contents\""), html.find("Bill of materials") - html.find("id=\"contents\""));
   for (std::size_t number = 1; number <= plan.disassembly.size(); ++number) {
     const std::string place = "step-" + std::to_string(number) + "\"";
     EXPECT_NE(contents.find("href=\"#" + place), std::string::npos) << number;
     EXPECT_NE(html.find("id=\"" + place), std::string::npos) << number;
   }
-  EXPECT_NE(book_pdf(plan, assembly, {}).find("/Count " + std::to_string(3 + plan.disassembly.size())), std::string::npos);
+  EXPECT_NE(book_pdf(plan, assembly, {}).find("/Count " + std::to_string(3 + plan.disassembly.size())),
+            std::string::npos);
 }
 
 // A page of its own, after the bill of materials, if there are any.
@@ -210,7 +213,8 @@ TEST(Book, ListsTheFastenersAndToolsOfTheJob) {
   BookOptions apart;
   apart.disassembly = true;
   EXPECT_NE(book_html(plan, assembly, apart).find("<p>hex key 2.5: 1x M3x10, step 1</p>"), std::string::npos);
-  EXPECT_NE(book_pdf(plan, assembly, {}).find("/Count " + std::to_string(4 + plan.disassembly.size())), std::string::npos);
+  EXPECT_NE(book_pdf(plan, assembly, {}).find("/Count " + std::to_string(4 + plan.disassembly.size())),
+            std::string::npos);
 }
 
 /// The plan takes out p0 and then p1; the others stay together.

@@ -1,12 +1,16 @@
 #include "page_steps.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
+#include "dismantle/plan_io/drawn_tools.h"
 #include "dismantle/plan_io/input_frame.h"
 #include "dismantle/plan_io/motion_words.h"
+#include "dismantle/plan_io/thread_words.h"
 #include "dismantle/plan_io/verdicts.h"
 #include "steps/timeline.h"
 
@@ -23,6 +27,10 @@ class Holds {
     for (std::size_t i = 0; i < plan.assembly.parts.size(); ++i) index_.emplace(plan.assembly.parts[i].name, i);
   }
 
+  std::optional<std::size_t> index(const std::string& part) const {
+    const auto known = index_.find(part);
+    return known == index_.end() ? std::nullopt : std::optional(known->second);
+  }
   std::set<std::size_t> of(const std::vector<PlanVerdict>& checks) const {
     std::set<std::size_t> out;
     for (const PlanVerdict& verdict : checks)
@@ -42,6 +50,40 @@ class Holds {
   std::map<std::string, std::size_t> index_;
 };
 
+StepsJson prisms_json(const std::vector<ToolPrism>& prisms) {
+  const auto mm = [](double x) { return std::round(1000 * x) / 1000 + 0.0; };
+  StepsJson out = StepsJson::array();
+  for (const ToolPrism& prism : prisms) {
+    StepsJson outline = StepsJson::array();
+    for (const Eigen::Vector2d& p : prism.outline) outline.insert(outline.end(), {mm(p.x()), mm(p.y())});
+    out.push_back(
+        {{"outline", std::move(outline)}, {"inner", mm(prism.inner)}, {"z", {mm(prism.low), mm(prism.high)}}});
+  }
+  return out;
+}
+
+/// The tools that notes of a step put in their place.
+StepsJson tools_json(const std::vector<PlanVerdict>& checks, const Holds& parts) {
+  StepsJson out = StepsJson::array();
+  const auto point = [](const Eigen::Vector3d& p) { return StepsJson{p.x(), p.y(), p.z()}; };
+  for (const DrawnTool& tool : drawn_tools(checks)) {
+    const auto part = parts.index(tool.part);
+    if (!part) continue;
+    out.push_back({{"part", *part},
+                   {"name", tool.name},
+                   {"turns", tool.turns},
+                   {"origin", point(tool.origin)},
+                   {"axis", point(tool.axis)},
+                   {"x", point(tool.x)},
+                   {"mm", tool.mm},
+                   {"swing", tool.swing},
+                   {"travel", tool.travel},
+                   {"tool", prisms_json(tool.tool)},
+                   {"hand", prisms_json(tool.hand)}});
+  }
+  return out;
+}
+
 /// One object per step; `checks_of`: what the objective says of a step. Without any step that says how the assembly
 /// lies, nothing is said of it.
 template <class ChecksOf>
@@ -59,6 +101,8 @@ StepsJson steps_json(const Plan& plan, const std::vector<PlanStep>& steps, const
       step["turned"] = s > 0 && ups[s] != ups[s - 1];
     }
     if (const auto held = holds.of(checks_of(steps[s])); !held.empty()) step["hold"] = held;
+    if (const auto threads = thread_words(plan, steps[s]); !threads.empty()) step["threads"] = threads;
+    if (StepsJson tools = tools_json(checks_of(steps[s]), holds); !tools.empty()) step["tools"] = std::move(tools);
     out.push_back(std::move(step));
   }
   return out;

@@ -9,6 +9,7 @@
 #include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/text_columns.h"
+#include "dismantle/plan_io/thread_words.h"
 #include "dismantle/plan_io/verdicts.h"
 
 namespace dismantle {
@@ -132,6 +133,7 @@ std::string summary_text(const Plan& plan, bool details, TextUnit unit) {
     out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     if (puzzle) out += moves_text(plan, frame, unit, step);
     out += overlaps_text(unit, step);
+    for (const std::string& words : thread_words(plan, step)) out += "       " + words + "\n";
   }
   if (forced > accepted)
     out += fmt::format("{} forced: no verified path was found, the parts are taken out where they cut in least\n",

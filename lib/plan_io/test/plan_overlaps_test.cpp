@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "dismantle/errors.h"
+#include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/plan_file.h"
+#include "dismantle/plan_io/thread_words.h"
 #include "dismantle/run_context.h"
 
 namespace dismantle {
@@ -128,6 +130,27 @@ TEST(PlanOverlaps, WrongOnesAreNamedWithTheirPlace) {
           << e.what();
     }
   }
+}
+
+// A screw that is deeper in a part along the way than as assembled cuts its thread; other parts, and others' names, do
+// not.
+TEST(PlanOverlaps, AScrewThatGoesDeeperCutsItsThread) {
+  Plan plan;
+  plan.assembly.parts = {{0, "screw", "a.obj"}, {1, "block", "b.obj"}};
+  plan.assembly.unit = "mm";
+  plan.assembly.box.extend({0, 0, 0});
+  plan.assembly.box.extend({10, 10, 10});
+  PlanStep step;
+  step.overlaps.push_back({"screw", "block", 0.3, 0.5, 0.45});
+  EXPECT_TRUE(thread_words(plan, step).empty());  // nothing says that it is a screw
+  plan.assembly.parts[0].kind = PartKind{"screw", "M3x10", 1};
+  ASSERT_EQ(thread_words(plan, step).size(), 1u);
+  EXPECT_EQ(thread_words(plan, step)[0], "'screw' cuts its thread, 0.45 mm deep, into 'block' (0.3 mm when assembled)");
+  EXPECT_NE(overlaps_text(plan, step).find("cuts its thread"), std::string::npos);
+  step.overlaps[0].part = "block", step.overlaps[0].other = "screw";  // the block moves off the screw
+  EXPECT_EQ(thread_words(plan, step)[0], "'screw' cuts its thread, 0.45 mm deep, into 'block' (0.3 mm when assembled)");
+  step.overlaps[0].depth = 0.301;
+  EXPECT_TRUE(thread_words(plan, step).empty());
 }
 
 }  // namespace

@@ -75,6 +75,7 @@ export function makeTools(app, display, help) {
   const follow = iconButton('follow', '', () => app.setFollowing(!app.following));
   const trails = iconButton('trails', TRAIL_WORDS.step, () => display.nextTrails());
   const fade = iconButton('fade', '', () => app.setFading(!app.fading));
+  const tools = iconButton('tool', '', () => app.setTools(!app.tools.on));
   const colours = iconButton('colours', '', () => display.nextColours());
   const up = iconButton('up', '', () => display.turnUp());
   const ground = iconButton('ground', '', () => display.ground());
@@ -83,6 +84,7 @@ export function makeTools(app, display, help) {
   const show = iconButton('help', 'Keyboard and mouse (?)', help);
   const name = (button, title) => { button.title = title; button.setAttribute('aria-label', title.replace(/ \(.*\)$/, '')); };
   colours.hidden = !app.model.hasColours;
+  tools.hidden = !app.model.hasTools;
   const refresh = () => {
     name(follow, app.following ? 'The camera follows the step (V)' : 'The camera stays (V)');
     follow.classList.toggle('on', app.following);
@@ -90,6 +92,8 @@ export function makeTools(app, display, help) {
     trails.classList.toggle('off', app.trailing === 'none');
     name(fade, app.fading ? 'Parts that are out vanish (R)' : 'Parts that are out stay (R)');
     fade.classList.toggle('on', app.fading);
+    name(tools, app.tools.on ? 'The tools of the step: shown (W)' : 'The tools of the step: hidden (W)');
+    tools.classList.toggle('on', app.tools.on);
     name(colours, app.colours === 'given' ? 'Colours: of the parts (C)' : 'Colours: by order (C)');
     name(up, `Up is ${axisWords(display.up)} (U)`);
     name(ground, app.stage?.groundOn === false ? 'Shadow on the ground: off (G)' : 'Shadow on the ground: on (G)');
@@ -101,5 +105,5 @@ export function makeTools(app, display, help) {
   };
   app.on(what => { if (what === 'display' || what === 'colours') refresh(); });
   refresh();
-  return element('nav.tools', {'aria-label': 'View'}, fit, follow, trails, fade, colours, cut, ruler, ground, up, theme, show);
+  return element('nav.tools', {'aria-label': 'View'}, fit, follow, trails, fade, tools, colours, cut, ruler, ground, up, theme, show);
 }

@@ -13,7 +13,7 @@ function facts(app, index) {
   const {step} = app.line.steps[index], {plan} = app.model, rows = [], details = [];
   const put = to => (name, ...value) => to.push(element('dt', {}, name), element('dd', {}, ...value));
   const row = put(rows), detail = put(details);
-  const {lies_words: lies, turned} = app.model.about(app.mode, index);
+  const {lies_words: lies, turned, threads = []} = app.model.about(app.mode, index);
   if (turned) row('first', 'turn the assembly');
   if (lies) row('lies', lies);
   const held = app.model.held(app.mode, index);
@@ -21,6 +21,7 @@ function facts(app, index) {
     onmouseenter: () => app.hover(i), onmouseleave: () => app.hover(-1)}, app.model.parts[i].name))));
   const verdicts = verdictRows(verdictsOf(plan, step, app.mode));
   for (const [name, text] of verdicts) if (name === 'note' || name === 'not allowed') row(name, text);
+  for (const words of threads) row('note', `${words}.`);
   if (step.moves.length > 1) row('moves', step.moves.map(m => m.part).join(', '));
   if (step.separates?.some(g => g.length > 1)) row('group', step.separates.filter(g => g.length > 1).map(g => g.join(', ')).join(' | '));
   if (step.forced) row('forced', forcedWords(step.forced, plan));

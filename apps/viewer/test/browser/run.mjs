@@ -342,6 +342,38 @@ test('a step shows what moves, what must be held, and the notes; how it was foun
   await page.close();
 });
 
+test('the tool of a step is drawn where its note says, follows its part, and can be hidden', async () => {
+  const {plan} = shelf, [{part, poses}] = plan.disassembly[1].moves, [box] = [plan.assembly.bbox];
+  const origin = box[1], along = poses.at(-1).slice(0, 3).map((x, k) => x - poses[0][k]), far = Math.hypot(...along);
+  const axis = along.map(x => x / far), x = Math.abs(axis[0]) > 0.9 ? [0, 1, 0] : [1, 0, 0];
+  const page = await open(browser, changedPlan(folder, 'stacked_box', 'tool', changed_ => {
+    changed_.objective = {up: [0, 0, 1], cost: 0, checks: [{type: 'tool_access', weight: 1, parameters: {}, cost: 0}]};
+    changed_.disassembly.forEach((step, k) => {
+      step.checks = [{type: 'tool_access', weight: 1, cost: 0, allowed: true, ...k === 1 ? {notes: [{kind: 'tool_access.tool', text: 'A key.', data: {
+        part, tool: 'key', name: 'key', use: '', at: origin, from: axis, handle: x.map((v, i) => v - axis[i] * x.reduce((sum, w, j) => sum + w * axis[j], 0)), swing: 1,
+        picture: {origin, mm: 1, travel: 0.5 * far, tool: [{tube: {radius: 1, inner: 0, z: [0, 20]}}], hand: [{box: {x: [5, 9], y: [-2, 2], z: [10, 14]}}]}}}]} : {}}];
+    });
+  })), tools = () => page.evaluate('window.dismantle.tools()');
+  assert.deepEqual(await tools(), []);
+  await page.evaluate('window.dismantle.seek(window.dismantle.timeOf("disassembly", 1, 0))');
+  const [seated] = await tools();
+  assert.deepEqual([seated.name, seated.part, seated.turns], ['key', part, true]);
+  assert.ok(distance(seated.at, origin) < 1e-6 * far);
+  // A little later it has gone along with the part; at the end of the step it is gone.
+  await page.evaluate('window.dismantle.seek(window.dismantle.timeOf("disassembly", 1, 0) + 0.02)');
+  const [moved] = await tools(), shift = moved.at.map((v, k) => v - origin[k]);
+  assert.ok(shift.reduce((sum, v, k) => sum + v * axis[k], 0) > 0);
+  await page.keyboard.press('w');
+  assert.deepEqual(await tools(), []);
+  await page.keyboard.press('w');
+  assert.equal((await tools()).length, 1);
+  await page.evaluate('window.dismantle.seek(window.dismantle.timeOf("disassembly", 1, 0) + 1e-9)');
+  await page.evaluate(`window.dismantle.seek(window.dismantle.timeOf("disassembly", 1, ${poses.length - 1}))`);
+  assert.deepEqual(await tools(), []);
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+});
+
 test('an address opens the page at a step, and follows its changes', async () => {
   const page = await open(browser, `${shelf.file}#step=2`), state = () => page.evaluate('window.dismantle.state()');
   assert.equal((await state()).step, 1);

@@ -8,6 +8,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/plan_history.h"
+#include "dismantle/plan_io/thread_words.h"
 #include "explain/advice.h"
 #include "explain/reach.h"
 
@@ -149,7 +150,11 @@ std::string overlaps_text(const TextUnit& unit, const PlanStep& step) {
   return out;
 }
 
-std::string overlaps_text(const Plan& plan, const PlanStep& step) { return overlaps_text(length_unit(plan), step); }
+std::string overlaps_text(const Plan& plan, const PlanStep& step) {
+  std::string out = overlaps_text(length_unit(plan), step);
+  for (const std::string& words : thread_words(plan, step)) out += "       " + words + "\n";
+  return out;
+}
 
 TextUnit length_unit(const Plan& plan) {
   TextUnit unit = text_unit(plan.assembly.unit, plan.assembly.box);
