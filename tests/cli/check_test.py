@@ -60,3 +60,11 @@ class Check(CliTest):
         with open(self.path(found[0]["picture"]), "rb") as file:
             self.assertTrue(file.read().startswith(b"\x89PNG\r\n"))
         self.assertEqual(os.listdir(self.path("places")), [os.path.basename(found[0]["picture"])])
+
+    @unittest.skipUnless(HAS_PICTURES, "built without pangocairo")
+    def test_the_gallery_has_a_picture_and_a_line_for_each_kind_of_part(self):
+        self.findings("--gallery", "kinds.html", status=1)
+        with open(self.path("kinds.html"), encoding="utf-8") as file:
+            html = file.read()
+        self.assertGreater(html.count("data:image/png;base64,"), 0)
+        self.assertEqual(html.count("data:image/png;base64,"), html.count("<pre>parts:"))

@@ -46,9 +46,6 @@ class Judge {
  private:
   const std::string& name(PartId part) const { return memo_.assembly().parts[part].name; }
   const std::string& name(const Driven& driven) const { return name(driven.part); }
-  static bool is_in(PartId part, std::span<const PlacedPart> list) {
-    return std::any_of(list.begin(), list.end(), [&](const PlacedPart& p) { return p.part == part; });
-  }
   /// The parts that are there, without one of them.
   std::vector<PlacedPart> without(PartId part) const {
     std::vector<PlacedPart> out = there_;
@@ -204,10 +201,6 @@ class Judge {
     out.fastener = f;
     if (out.reaches()) out.seat = units.to_input(pose * tools::seat_of(*out.access.use, f));
     return out;
-  }
-
-  static void keep_better(Reach& best, Reach&& found) {
-    if (best.tool == nullptr || found.access.in_the_way.size() < best.access.in_the_way.size()) best = std::move(found);
   }
 
   Answer carried_out(const Task& task, const Pose& pose) {

@@ -5,14 +5,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "reach.h"
 #include "tool_words.h"
 
 namespace dismantle::checks {
 namespace {
-
-bool is_in(PartId part, std::span<const PlacedPart> list) {
-  return std::any_of(list.begin(), list.end(), [&](const PlacedPart& p) { return p.part == part; });
-}
 
 std::vector<std::string> names_of(const FastenerMemo& memo, const std::vector<PartId>& parts) {
   std::vector<std::string> out;

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "dismantle/tools/access.h"
@@ -23,6 +26,13 @@ struct Reach {
   std::size_t place = 0;  // number of the use in the catalogue
   bool reaches() const { return tool != nullptr && access.reaches(); }
 };
+
+inline void keep_better(Reach& best, Reach&& found) {
+  if (best.tool == nullptr || found.access.in_the_way.size() < best.access.in_the_way.size()) best = std::move(found);
+}
+inline bool is_in(PartId part, std::span<const PlacedPart> list) {
+  return std::any_of(list.begin(), list.end(), [&](const PlacedPart& p) { return p.part == part; });
+}
 
 /// What is turned, and what must not turn with it.
 struct Task {
