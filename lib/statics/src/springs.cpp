@@ -15,9 +15,9 @@ using Mat3 = Eigen::Matrix3d;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Weight of the proximal term against the stiffness of a contact, at first and at least. Small: few programs; large:
-/// well-conditioned ones, and few steps of Newton's method from afar.
-constexpr double kProximal = 1e-4, kProximalLeast = 1e-8, kProximalMost = 1;
+/// Weight of the proximal term at least and at most. Small: few programs; large: well-conditioned ones, and few steps
+/// of Newton's method from afar.
+constexpr double kProximalLeast = 1e-8, kProximalMost = 1;
 /// The same for Coulomb's law itself: only against exact singularity.
 constexpr double kProximalCoupled = 1e-9;
 constexpr int kNewtonSteps = 60, kCoupledSteps = 25, kLineSteps = 12;
@@ -247,6 +247,11 @@ VectorXd Springs::derivatives(const VectorXd& anchor, bool coupled, Blocks& bloc
     if (coupled || pair.a < pair.b) add(blocks.ba[n], rows(pair.b, pair.arm_b, by_a), false, -1);
   }
   return gradient - forces;
+}
+
+void Springs::start_at(const VectorXd& x) {
+  x_ = x;
+  update_limits();
 }
 
 void Springs::lengthen_steps() { proximal_ = std::max(proximal_least_, 0.1 * proximal_); }

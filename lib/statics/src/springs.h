@@ -13,6 +13,9 @@
 
 namespace dismantle::statics {
 
+/// Weight of the proximal term at first, against the stiffness of a contact.
+inline constexpr double kProximal = 1e-4;
+
 /// Coordinates: six for each body that can move, scaled so that the proximal term is a multiple of the identity. The
 /// total weight is 1.
 class Springs {
@@ -21,6 +24,10 @@ class Springs {
 
   /// Minimizes from the current point with the proximal term about `anchor`; false: Newton's method did not converge.
   bool minimize(const Eigen::VectorXd& anchor, const std::function<bool()>& stop);
+  /// Coulomb: begins at `x`, with the limits of friction of the pressure there.
+  void start_at(const Eigen::VectorXd& x);
+  /// Coulomb: so many bodies that they give way farther than one contact does.
+  bool is_long() const { return proximal_least_ < kProximal; }
   /// A smaller weight of the proximal term from now on.
   void lengthen_steps();
   /// A larger one. False: it is as large as it can be.
