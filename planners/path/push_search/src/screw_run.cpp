@@ -99,15 +99,17 @@ void ScrewRun::record(const Twist& screw, double length) {
   length_ += length;
 }
 
-/// Moves the part away from its contacts at a share of the clear length, and fits the screw to that pose.
-void ScrewRun::turn_back(double length) {
-  const double kept = problem_.tactics.glide_kept * length;
+/// Moves the part away from its contacts at a length, and fits the screw to that pose. False: that moves it nowhere.
+bool ScrewRun::turn_back(double kept) {
   const Eigen::Vector3d center = problem_.center(state_);
-  room_ = moved(state_, screw_, center, kept);
+  const State on_screw = moved(state_, screw_, center, kept);
+  kept_ = kept;
+  room_ = on_screw;
   problem_.give_room(room_);
   screw_in_room_ =
       fitted_screw(about(screw_, center, problem_.center(room_)), state_.bodies[0].pose, room_.bodies[0].pose,
                    problem_.bodies[0].center, problem_.world->torque_arm(0), kept * screw_.angular.norm());
+  return travel(on_screw, room_) > problem_.touch_distance();
 }
 
 ScrewRun::End ScrewRun::follow(const Twist& first) {
@@ -127,18 +129,16 @@ ScrewRun::End ScrewRun::follow(const Twist& first) {
     if (length > best + problem_.glide_step()) {
       best = length;
       screw_ = screw;
-      turn_back(best);
+      // Without a correction, also where it is blocked, the screw was right, and something else is in the way.
+      if (!turn_back(problem_.tactics.glide_kept * best) && !turn_back(best)) return finish(best);
       screw = about(screw_in_room_, problem_.center(room_), center);
-      const State on_screw = moved(state_, screw_, center, problem_.tactics.glide_kept * best);
-      // Without a correction the screw was right, and something else is in the way.
-      if (travel(on_screw, room_) > problem_.touch_distance()) continue;
-      return finish(best);
+      continue;
     }
     if (best == 0) best = length;
     const State blocked = moved(state_, screw_, center, best);
     if (travel(stuck, blocked) < problem_.glide_step()) return finish(best);
     stuck = blocked;
-    record(screw_, problem_.tactics.glide_kept * best);
+    record(screw_, kept_);
     state_ = room_;
     motion_.push_back(path::poses_of(state_));
     best = 0;

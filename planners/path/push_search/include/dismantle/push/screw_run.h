@@ -42,7 +42,7 @@ class ScrewRun {
   Glide glide(const geometry::Twist& screw, double clear);
   bool in_known_state(const State& state, const State& start, bool& left) const;
   void record(const geometry::Twist& screw, double length);
-  void turn_back(double length);
+  bool turn_back(double kept);
   End finish(double length);
   double travel(const State& a, const State& b) const;
 
@@ -60,6 +60,7 @@ class ScrewRun {
   double length_ = 0;      ///< total length of the glides
   geometry::Twist screw_;  ///< the best one from `state_`
   State room_;             ///< where the part was moved away from its contacts
+  double kept_ = 0;        ///< length on `screw_` at which that was
   geometry::Twist screw_in_room_;
 };
 
