@@ -88,6 +88,10 @@ class ContentWriter {
       page.box.push_back({number, count, content_.items[item].picture});
   }
 
+  static bool moves(const BookStep& step, std::size_t part) {
+    return std::ranges::any_of(step.movers, [&](const BookMover& m) { return std::ranges::find(m.parts, part) != m.parts.end(); });
+  }
+
   /// The notes of the reader of the plan on what this step moves.
   void add_own_notes(const BookStep& step, BookPage& page) const {
     std::vector<std::string> moved;
@@ -282,7 +286,7 @@ class ContentWriter {
         const std::vector<std::string> held = held_by(note);
         for (const std::string& name : held)
           for (std::size_t i = 0; i < assembly_.parts.size(); ++i)
-            if (assembly_.parts[i].name == name) page.held.push_back(i);
+            if (assembly_.parts[i].name == name && !moves(*page.step, i)) page.held.push_back(i);
         const char* kind = !held.empty() ? "hold" : note.kind.starts_with("tool_access") ? "tool" : "note";
         fact(page.facts, kind, words_.text(note.text));
       }
