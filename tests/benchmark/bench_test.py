@@ -63,7 +63,7 @@ class Isolation(BenchTest):
                   "--set", "path_planner.type=t_rrt", "--set", "sequence_planner.type=progressive")
         for depth, valid in ((0.1, True), (1e-9, False)):
             request = {"config": "", "input": self.path("mesh"), "sample": "", "sample_values": {}, "rotate": False, "seed": 1, "part": "",
-                       "inputs": self.folder, "input_name": "", "max_penetration": depth}
+                       "inputs": self.folder, "input_name": "", "max_penetration": depth, "plugins": [], "search_nodes": 0}
             self.write("trial/request.json", json.dumps(request))
             self.call("bench-trial", "trial", "--verify")
             with open(self.path("trial/verification.json"), encoding="utf-8") as file:

@@ -4,7 +4,8 @@ import re
 
 from program import CliTest
 
-QUICK = ("--set", "immobility.provers=[]", "--timeout", "0")
+# Without best_order, which prefers what leaves upwards, the peg always leaves along +z.
+QUICK = ("--set", "immobility.provers=[]", "--set", "run.best_order=false", "--timeout", "0")
 
 
 class Up(CliTest):

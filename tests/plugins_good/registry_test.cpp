@@ -227,7 +227,8 @@ TEST(Examples, AllCodeOfThePagesIsBuilt) {
   const Page pages[] = {
       {"docs/write-a-planner.md",
        {"plugins/templates/path_planner/acme_lines.cpp", "tests/plugins_good/acme_straight/straight.cpp",
-        "tests/plugins_good/acme_first_of/first_of.cpp", "plugins/templates/sequence_planner/acme_in_turn.cpp"},
+        "tests/plugins_good/acme_first_of/first_of.cpp", "plugins/templates/sequence_planner/acme_in_turn.cpp",
+        "tests/plugins_good/acme_veto/veto.cpp"},
        {"tests/plugins_good/acme_straight/CMakeLists.txt"}},
       {"docs/write-a-simulator.md", {"plugins/templates/simulator/acme_stepper.cpp"}, {}},
       {"docs/write-a-check.md", {"plugins/templates/step_check/acme_from_above.cpp"}, {}}};

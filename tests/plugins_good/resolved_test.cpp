@@ -68,6 +68,7 @@ ParamValue random_value(const ParamSpec& spec, Rng& rng) {
     case ParamType::choice:
       return spec.choices[rng.below(spec.choices.size())].name;
     case ParamType::text: {
+      if (spec.name == "up") return rng.below(2) == 0 ? "-y" : "0.5,-1,2";  // read as a direction
       static const char* const pieces[] = {"a", " ",    ":", "#", "\"",   "'", "\\", "\n",   "\t",
                                            "1", "true", "~", "é", "日本", "{", "- ", "\x01", "|"};
       std::string text;

@@ -1,5 +1,6 @@
 """One trial of bench(), in a process of its own: python3 -m dismantle._trial [--load FILE]... [--verify] FOLDER"""
 import argparse
+import os
 import runpy
 import sys
 
@@ -16,6 +17,9 @@ def main():
     try:
         if not arguments.verify:  # the verifier's process runs no planner's code
             for file in arguments.load:
+                folder = os.path.dirname(os.path.abspath(file))
+                if folder not in sys.path:  # a file imports its neighbours, as it does when Python runs it
+                    sys.path.insert(0, folder)
                 runpy.run_path(file, run_name="dismantle_plugin")
         _core._bench_trial(arguments.folder, arguments.verify)
     except MemoryError:

@@ -16,9 +16,9 @@ class Surveyor {
 
   std::vector<SurfaceCell> run(double finest) {
     for (std::size_t k = 0; k < a_.solids().size(); ++k) collect(k, 0);
-    // Half of the divisions are for all near cells, half for those that may overlap: area shares are good to 2 %.
-    divide(500, finest, [](const SurfaceCell&) { return true; });
-    divide(500, finest, [](const SurfaceCell& c) { return c.seen.depth > -c.radius; });
+    // Half of the divisions are for all near cells, half for those that may overlap: area shares are good to 1 %.
+    divide(2000, finest, [](const SurfaceCell&) { return true; });
+    divide(2000, finest, [](const SurfaceCell& c) { return c.seen.depth > -c.radius; });
     return std::move(cells_);
   }
 
