@@ -194,7 +194,8 @@ int access(const AccessOptions& options) {
 
   RunContext looking = context;
   looking.deadline = Deadline();  // the time limit is that of planning
-  const Objective objective = objective_of(session.config(), session.registry(), up_of(session.config().layout, assembly));
+  const Objective objective =
+      objective_of(session.config(), session.registry(), up_of(session.config().layout, assembly));
   std::optional<Verifier> verifier;
   std::optional<Access> ways;
   try {

@@ -38,8 +38,8 @@ ConfigNode read_book_map(const std::string& file, const std::vector<std::string>
   if (!root.is_map() && problems.empty()) problems.push_back(root.mark.error("a map of keys is expected"));
   for (const ConfigMember& member : root.members)
     if (std::ranges::find(keys, member.key) == keys.end())
-      problems.push_back(member.key_mark.error(
-          fmt::format("unknown key '{}'; there are: {}", member.key, fmt::join(keys, ", "))));
+      problems.push_back(
+          member.key_mark.error(fmt::format("unknown key '{}'; there are: {}", member.key, fmt::join(keys, ", "))));
   if (!problems.empty()) throw ConfigError(std::move(problems));
   return root;
 }
@@ -64,8 +64,8 @@ std::vector<std::vector<std::string>> moved_part_sets(const Plan& plan) {
   return out;
 }
 
-/// `notes: [{parts: [NAME...], text: TEXT}...]`, as the page saves them. @throws ConfigError with file:line:column, also
-/// for a note on parts that no step of the plan moves together.
+/// `notes: [{parts: [NAME...], text: TEXT}...]`, as the page saves them. @throws ConfigError with file:line:column,
+/// also for a note on parts that no step of the plan moves together.
 std::vector<BookNote> read_notes(const std::string& file, const Plan& plan) {
   const ConfigNode root = read_book_map(file, {"notes"});
   const ConfigMember* list = root.find("notes");
@@ -138,8 +138,7 @@ int write_book(const BookCommand& options) {
   write_file(output, book);
   console.end_progress();
   console.text(fmt::format("wrote {}: {} steps\n", output, pages));
-  console.result(
-      {{"status", result_word(plan)}, {"steps", pages}, {"book", output}, {"plan", options.plan}});
+  console.result({{"status", result_word(plan)}, {"steps", pages}, {"book", output}, {"plan", options.plan}});
   return kComplete;
 }
 #else

@@ -1,6 +1,5 @@
 // dismantle export PLAN.json --format FORMAT
 #include <fmt/format.h>
-
 #include <unistd.h>
 
 #include <array>
@@ -180,7 +179,8 @@ int export_film(const Plan& plan, const ExportOptions& options, const InputFrame
   RunContext context = context_of(session, console);
   const std::string ffmpeg = program_named("ffmpeg");
   if (options.format == "mp4" && ffmpeg.empty())
-    throw Error("--format mp4 needs the program ffmpeg, which is not there (Debian: apt-get install ffmpeg); gif does not");
+    throw Error(
+        "--format mp4 needs the program ffmpeg, which is not there (Debian: apt-get install ffmpeg); gif does not");
   const std::string gif = film_of(plan, options, frame, session, context);
   if (options.format == "gif") return write_text(gif, target, false, console);
   console.end_progress();

@@ -253,7 +253,8 @@ void add_plan(CLI::App& app, Action& action) {
   options->config.add_key(*command, "--path-timeout", "run.path_timeout", "S", "Seconds for one attempt, 0 = no limit");
   options->config.add_key(*command, "--timeout", "run.timeout", "S", "Seconds for the whole run, 0 = no limit");
   options->config.add_key(*command, "--unit", "assembly.unit", "UNIT", "Unit of an input that names none: mm, inch...");
-  options->config.add_key(*command, "--up", "layout.up", "x|y|z|-x|-y|-z|X,Y,Z", "What is up in the input's coordinates");
+  options->config.add_key(*command, "--up", "layout.up", "x|y|z|-x|-y|-z|X,Y,Z",
+                          "What is up in the input's coordinates");
   options->config.add_key(*command, "--threads", "run.threads", "N", "Threads, 0 = all cores");
   auto* isolate = command->add_flag("--isolate", options->isolate,
                                     "Run in a child process: a plugin that crashes or hangs costs no finished step");

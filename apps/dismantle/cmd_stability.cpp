@@ -291,7 +291,8 @@ void add_stability(CLI::App& app, Action& action) {
   command->add_option("-o,--output", options->folder, "Folder for stability.json, which verify takes")
       ->option_text("DIR");
   options->config.add_file_and_set(*command);
-  options->config.add_key(*command, "--up", "layout.up", "x|y|z|-x|-y|-z|X,Y,Z", "What is up in the input's coordinates");
+  options->config.add_key(*command, "--up", "layout.up", "x|y|z|-x|-y|-z|X,Y,Z",
+                          "What is up in the input's coordinates");
   options->config.add_key(*command, "--threads", "run.threads", "N", "Threads, 0 = all cores");
   add_format(*command, options->console);
   add_verbosity(*command, options->console);

@@ -1,5 +1,5 @@
-// What is asked once per step about all parts that are left, at 10^2 to 10^4 parts: time per step over the number of parts
-// is the slope; a figure that grows with it is a square.
+// What is asked once per step about all parts that are left, at 10^2 to 10^4 parts: time per step over the number of
+// parts is the slope; a figure that grows with it is a square.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

@@ -190,7 +190,8 @@ TEST_F(SuiteTest, WhatIsToBeSolvedIsTheSameForAllPlanners) {
 }
 
 TEST_F(SuiteTest, TheObjectiveIsThatOfPlannersWithoutOne) {
-  const std::string text = "schema: 1\nassemblies: [{sample: l_slot}]\nplanners:\n  own: {set: {objective: [travel]}}\n  plain: {}\n";
+  const std::string text =
+      "schema: 1\nassemblies: [{sample: l_slot}]\nplanners:\n  own: {set: {objective: [travel]}}\n  plain: {}\n";
   for (const bool stated : {false, true}) {
     const Suite suite = read_suite(write(text + (stated ? "objective: [directions, base]\n" : "")));
     ASSERT_EQ(suite.planners.size(), 2u);

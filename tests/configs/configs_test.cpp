@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 std::vector<fs::path> config_files() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(CONFIGS_FOLDER))
-    if (entry.path().extension() == ".yaml" && entry.path().parent_path().filename() != "bench" &&      // suites: tests/benchmark
+    if (entry.path().extension() == ".yaml" &&
+        entry.path().parent_path().filename() != "bench" &&      // suites: tests/benchmark
         entry.path().parent_path().filename() != "languages" &&  // of the book: lib/book
         entry.path().string().find("/presets/") == std::string::npos)
       files.push_back(entry.path());
@@ -122,8 +123,8 @@ TEST(Configs, DefaultSaysWhatIsTheDefault) {
   EXPECT_EQ(none.simulator.parameters, file.simulator.parameters);
   EXPECT_EQ(none.path_planner.type, file.path_planner.type);
   EXPECT_EQ(none.path_planner.parameters, file.path_planner.parameters);
-  // run.force: last_resort appends least_cut to the default planner, and run.best_order puts both into a best_order; the
-  // file writes it out.
+  // run.force: last_resort appends least_cut to the default planner, and run.best_order puts both into a best_order;
+  // the file writes it out.
   EXPECT_EQ(none.run.force, ForceWhen::last_resort);
   EXPECT_TRUE(none.run.best_order);
   ASSERT_EQ(file.sequence_planner.type, "best_order");

@@ -57,7 +57,7 @@ std::string hash_of(const std::vector<RawPart>& parts) {
 }
 
 HeldAssembly from_parts(std::vector<RawPart> raw, const std::string& source, const std::string& file,
-                          const std::vector<std::string>& overrides) {
+                        const std::vector<std::string>& overrides) {
   std::vector<std::string> changed;
   make_names_unique(raw, changed);
   const std::string hash = hash_of(raw);
@@ -71,7 +71,7 @@ HeldAssembly from_parts(std::vector<RawPart> raw, const std::string& source, con
 }
 
 HeldAssembly from_meshes(const py::dict& meshes, const std::string& unit, const std::string& file,
-                           const std::vector<std::string>& overrides) {
+                         const std::vector<std::string>& overrides) {
   std::vector<RawPart> raw;
   for (const auto& [key, value] : meshes) {
     RawPart& part = raw.emplace_back();
@@ -86,7 +86,7 @@ HeldAssembly from_meshes(const py::dict& meshes, const std::string& unit, const 
 }
 
 HeldAssembly from_sample(const std::string& name, const py::dict& values, const std::string& file,
-                           const std::vector<std::string>& overrides) {
+                         const std::vector<std::string>& overrides) {
   const samples::Sample* sample = samples::find(name);
   if (sample == nullptr) {
     std::vector<std::string> known;

@@ -93,7 +93,8 @@ void bind_plan_steps(PlanClass& plan) {
           "List of Step: how it is put together, from the layout on.")
       .def_property_readonly(
           "complete", [](const HeldPlan& self) { return self.plan.status == PlanStatus::complete; },
-          "True when what was asked for is done, by verified steps alone: every group is down to one part or to parts that "
+          "True when what was asked for is done, by verified steps alone: every group is down to one part or to parts "
+          "that "
           "are kept together, or the part that was asked for is out.")
       .def_property_readonly(
           "status", [](const HeldPlan& self) { return to_string(self.plan.status); },

@@ -55,9 +55,8 @@ class HeldSimulator {
                                      const py::object& fixed, const std::string& space, double tolerance,
                                      unsigned threads) {
     if (count < 1 || threads < 1) throw py::value_error("count, threads: expected a number >= 1");
-    return made<HeldWorlds>(loaded, moving, fixed, space, tolerance, [&](auto make) {
-      return std::make_shared<HeldWorlds>(std::move(make), count, threads);
-    });
+    return made<HeldWorlds>(loaded, moving, fixed, space, tolerance,
+                            [&](auto make) { return std::make_shared<HeldWorlds>(std::move(make), count, threads); });
   }
 
  private:

@@ -13,7 +13,8 @@ double covered(const Image& image, const Eigen::Vector2d& middle, double radius)
   int drawn = 0, all = 0;
   for (int i = -2; i <= 2; ++i)
     for (int k = -2; k <= 2; ++k) {
-      const int x = static_cast<int>(middle.x() + 0.5 * i * radius), y = static_cast<int>(middle.y() + 0.5 * k * radius);
+      const int x = static_cast<int>(middle.x() + 0.5 * i * radius),
+                y = static_cast<int>(middle.y() + 0.5 * k * radius);
       ++all;
       if ((image.pixels[static_cast<std::size_t>(y) * image.width + x] >> 24) > 40) ++drawn;
     }

@@ -19,8 +19,8 @@ struct Balloon {
 /// Radius of the circles, pixels, in a picture of this width.
 double balloon_radius(int width);
 
-/// Finds a place for each circle: on as little of the drawing as possible, near its point, apart from other circles, with
-/// lines that do not cross. Those without a place are left out.
+/// Finds a place for each circle: on as little of the drawing as possible, near its point, apart from other circles,
+/// with lines that do not cross. Those without a place are left out.
 std::vector<Balloon> placed_balloons(std::vector<Balloon> wanted, const Image& image);
 
 }  // namespace dismantle

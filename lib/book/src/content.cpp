@@ -89,7 +89,8 @@ class ContentWriter {
   }
 
   static bool moves(const BookStep& step, std::size_t part) {
-    return std::ranges::any_of(step.movers, [&](const BookMover& m) { return std::ranges::find(m.parts, part) != m.parts.end(); });
+    return std::ranges::any_of(step.movers,
+                               [&](const BookMover& m) { return std::ranges::find(m.parts, part) != m.parts.end(); });
   }
 
   /// The notes of the reader of the plan on what this step moves.

@@ -31,7 +31,7 @@ struct ContentsLine {
 
 /// A picture in the box of the parts of a step.
 struct BoxEntry {
-  std::size_t item = 0;             ///< number; 0: a sub-assembly, or what is no item
+  std::size_t item = 0;  ///< number; 0: a sub-assembly, or what is no item
   std::size_t count = 1;
   std::vector<PlacedPart> picture;  ///< one of them
 };
@@ -47,8 +47,8 @@ struct BookPage {
   std::string warning;                                      ///< not empty if the step is forced
   Facts facts;
   const BookStep* step = nullptr;
-  std::vector<BoxEntry> box;         ///< what the step puts in or takes out
-  std::vector<std::size_t> held{};   ///< parts to hold
+  std::vector<BoxEntry> box;        ///< what the step puts in or takes out
+  std::vector<std::size_t> held{};  ///< parts to hold
 };
 
 struct BookContent {
@@ -56,11 +56,11 @@ struct BookContent {
   Facts facts;
   std::vector<std::string> warnings;
   std::vector<BookItem> items;
-  std::string base;  ///< what the book leaves together and does not list, in words; empty: nothing
-  std::vector<ContentsLine> job;  ///< fasteners and tools of the whole job, without pages; empty: there are none
+  std::string base;                    ///< what the book leaves together and does not list, in words; empty: nothing
+  std::vector<ContentsLine> job;       ///< fasteners and tools of the whole job, without pages; empty: there are none
   std::vector<ContentsLine> contents;  ///< empty: too few pages for it
   std::vector<BookChapter> chapters;
-  PartNumbers numbers;  ///< by part: of its item
+  PartNumbers numbers;          ///< by part: of its item
   std::vector<BookPage> pages;  ///< by number; `step` points into `chapters`
 };
 

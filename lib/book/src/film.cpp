@@ -37,7 +37,8 @@ std::vector<std::vector<std::size_t>> shown_poses(const BookStep& step, bool dis
     }
     const double from = double(disassembly ? place : away), to = double(disassembly ? away : place);
     for (int n = 0; n <= kFrames; ++n)
-      out[static_cast<std::size_t>(n)].push_back(static_cast<std::size_t>(std::lround(from + (to - from) * n / kFrames)));
+      out[static_cast<std::size_t>(n)].push_back(
+          static_cast<std::size_t>(std::lround(from + (to - from) * n / kFrames)));
   }
   return out;
 }
@@ -63,7 +64,8 @@ std::string book_gif(const Plan& plan, const Assembly& assembly, const FilmOptio
   GifPalette palette;  // of small pictures of all steps
   for (const BookStep& step : steps) {
     const auto poses = shown_poses(step, options.disassembly, furthest);
-    Image small = illustrator.moment(step, movers_of(step, poses[kFrames / 2]), {options.width / 3, options.height / 3});
+    Image small =
+        illustrator.moment(step, movers_of(step, poses[kFrames / 2]), {options.width / 3, options.height / 3});
     draw_bar(small, 0.5);
     palette.count(small);
   }

@@ -15,7 +15,9 @@ namespace {
 /// Red, green, blue of a premultiplied pixel on white.
 std::array<std::uint8_t, 3> on_white(std::uint32_t p) {
   const std::uint32_t white = 255 - (p >> 24);
-  const auto channel = [&](int shift) { return static_cast<std::uint8_t>(std::min(255u, ((p >> shift) & 255u) + white)); };
+  const auto channel = [&](int shift) {
+    return static_cast<std::uint8_t>(std::min(255u, ((p >> shift) & 255u) + white));
+  };
   return {channel(16), channel(8), channel(0)};
 }
 
@@ -65,7 +67,8 @@ std::uint8_t GifWriter::nearest(std::uint32_t pixel) {
 namespace {
 
 int append_gif(GifFileType* file, const GifByteType* data, int length) {
-  static_cast<std::string*>(file->UserData)->append(reinterpret_cast<const char*>(data), static_cast<std::size_t>(length));
+  static_cast<std::string*>(file->UserData)
+      ->append(reinterpret_cast<const char*>(data), static_cast<std::size_t>(length));
   return length;
 }
 
@@ -106,9 +109,20 @@ void GifWriter::add(const Image& image, int time) {
   std::ranges::transform(image.pixels, now.begin(), [this](std::uint32_t p) { return nearest(p); });
   int left = 0, top = 0, right = width_ - 1, bottom = height_ - 1;
   if (!before_.empty()) {
-    const auto same = [&](int x, int y) { const std::size_t i = static_cast<std::size_t>(y) * width_ + x; return now[i] == before_[i]; };
-    const auto row = [&](int y) { for (int x = 0; x < width_; ++x) if (!same(x, y)) return false; return true; };
-    const auto column = [&](int x) { for (int y = top; y <= bottom; ++y) if (!same(x, y)) return false; return true; };
+    const auto same = [&](int x, int y) {
+      const std::size_t i = static_cast<std::size_t>(y) * width_ + x;
+      return now[i] == before_[i];
+    };
+    const auto row = [&](int y) {
+      for (int x = 0; x < width_; ++x)
+        if (!same(x, y)) return false;
+      return true;
+    };
+    const auto column = [&](int x) {
+      for (int y = top; y <= bottom; ++y)
+        if (!same(x, y)) return false;
+      return true;
+    };
     while (top < bottom && row(top)) ++top;
     while (bottom > top && row(bottom)) --bottom;
     while (left < right && column(left)) ++left;
@@ -132,7 +146,8 @@ std::string GifWriter::finish() {
   return std::move(bytes_);
 }
 #else
-GifWriter::GifWriter(int width, int height, GifColours colours) : width_(width), height_(height), colours_(std::move(colours)) {
+GifWriter::GifWriter(int width, int height, GifColours colours)
+    : width_(width), height_(height), colours_(std::move(colours)) {
   throw Error("this program was built without GIF; install libgif-dev and build again");
 }
 GifWriter::~GifWriter() = default;

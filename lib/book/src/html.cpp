@@ -57,12 +57,13 @@ std::string balloons_svg(const Picture& picture) {
   const double radius = balloon_radius(picture.image.width);
   std::string out = fmt::format("<svg viewBox=\"0 0 {} {}\">", picture.image.width, picture.image.height);
   for (const Balloon& b : picture.balloons)
-    out += fmt::format("<g{}><path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\"/><circle class=\"dot\" cx=\"{:.1f}\" cy=\"{:.1f}\" "
-                       "r=\"2\"/><circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\"/><text x=\"{:.1f}\" y=\"{:.1f}\" "
-                       "font-size=\"{:.1f}\">{}</text></g>",
-                       b.held ? " class=\"held\"" : "", b.at.x(), b.at.y(), b.middle.x(), b.middle.y(), b.at.x(),
-                       b.at.y(), b.middle.x(), b.middle.y(), radius, b.middle.x(), b.middle.y(),
-                       b.number < 100 ? 1.15 * radius : 0.9 * radius, b.number);
+    out += fmt::format(
+        "<g{}><path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\"/><circle class=\"dot\" cx=\"{:.1f}\" cy=\"{:.1f}\" "
+        "r=\"2\"/><circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\"/><text x=\"{:.1f}\" y=\"{:.1f}\" "
+        "font-size=\"{:.1f}\">{}</text></g>",
+        b.held ? " class=\"held\"" : "", b.at.x(), b.at.y(), b.middle.x(), b.middle.y(), b.at.x(), b.at.y(),
+        b.middle.x(), b.middle.y(), radius, b.middle.x(), b.middle.y(), b.number < 100 ? 1.15 * radius : 0.9 * radius,
+        b.number);
   return out + "</svg>";
 }
 
@@ -117,25 +118,27 @@ std::string parts_box(const BookPage& page, const Illustrator& illustrator) {
 
 std::string step_page(const BookPage& page, const StepPictures& pictures, const std::string& box,
                       const BookWords& words, bool disassembly) {
-  std::string out = fmt::format(
-      "<section class=\"page\" id=\"step-{}\"><div class=\"head\"><span>{}</span><span>{}</span></div>\n",
-      page.number, escaped_markup(page.chapter),
-      escaped_markup(fmt::format(fmt::runtime(words.label("step {} of {}")), page.number, page.count)));
+  std::string out =
+      fmt::format("<section class=\"page\" id=\"step-{}\"><div class=\"head\"><span>{}</span><span>{}</span></div>\n",
+                  page.number, escaped_markup(page.chapter),
+                  escaped_markup(fmt::format(fmt::runtime(words.label("step {} of {}")), page.number, page.count)));
   std::string what;
   for (const auto& [item, name] : page.moving)
     what += fmt::format("<div class=\"what\">{}{}</div>", badge(item), escaped_markup(name));
   std::string motions;
   for (const std::string& motion : page.motions)
     motions += fmt::format("<p class=\"motion\">{}</p>", escaped_markup(motion));
-  for (const std::string& note : page.own_notes) motions += fmt::format("<p class=\"own\">{}</p>", escaped_markup(note));
+  for (const std::string& note : page.own_notes)
+    motions += fmt::format("<p class=\"own\">{}</p>", escaped_markup(note));
   const std::string caption = caption_of(pictures, words);
   out += fmt::format("<div class=\"step\"><div>{}{}{}</div>\n", box, img(pictures.apart, "the motion of this step"),
                      caption.empty() ? "" : fmt::format("<p class=\"soft\">{}</p>", escaped_markup(caption)));
   out += fmt::format(
-      "<div><div class=\"number\">{}</div><div class=\"do\">{}: {}</div>{}{}", page.number, escaped_markup(page.verb), what,
-      motions + (page.warning.empty() ? "" : "<p class=\"forced\">" + escaped_markup(page.warning) + "</p>"),
+      "<div><div class=\"number\">{}</div><div class=\"do\">{}: {}</div>{}{}", page.number, escaped_markup(page.verb),
+      what, motions + (page.warning.empty() ? "" : "<p class=\"forced\">" + escaped_markup(page.warning) + "</p>"),
       facts_list(page.facts));
-  out += fmt::format("<div class=\"after\"><p>{}</p>{}</div></div></div></section>\n", escaped_markup(words.label(disassembly ? "before" : "after")),
+  out += fmt::format("<div class=\"after\"><p>{}</p>{}</div></div></div></section>\n",
+                     escaped_markup(words.label(disassembly ? "before" : "after")),
                      img(pictures.placed, disassembly ? "before this step" : "after this step"));
   return out;
 }
@@ -159,8 +162,9 @@ std::string book_html(const Plan& plan, const Assembly& assembly, const BookOpti
   for (const std::string& w : content.warnings)
     warnings += fmt::format("<p class=\"warning\">{}</p>", escaped_markup(w));
   out += fmt::format("<section><h1>{}</h1><p class=\"soft\">{}</p>{}\n<div class=\"title\">{}{}</div>{}</section>\n",
-                     escaped_markup(content.title), escaped_markup(content.subtitle), warnings, img(fronts.whole, "the assembly"),
-                     img(fronts.exploded, "the assembly, exploded"), facts_list(content.facts));
+                     escaped_markup(content.title), escaped_markup(content.subtitle), warnings,
+                     img(fronts.whole, "the assembly"), img(fronts.exploded, "the assembly, exploded"),
+                     facts_list(content.facts));
   out += contents_list(content, label("Contents"));
   out += "<section><h2>" + label("Bill of materials") + "</h2>";
   if (!content.base.empty()) out += fmt::format("<p class=\"soft\">{}</p>", escaped_markup(content.base));
@@ -170,8 +174,8 @@ std::string book_html(const Plan& plan, const Assembly& assembly, const BookOpti
     out += fmt::format(
         "<div class=\"item\"><span class=\"count\">{} ×</span>{}{}<div><strong>{}</strong></div>{}"
         "<div class=\"soft\">{}</div></div>\n",
-        item.names.size(), badge(item.number), plain_img(illustrator.scene(item.picture, illustrator.style().item), item.name),
-        escaped_markup(item.name),
+        item.names.size(), badge(item.number),
+        plain_img(illustrator.scene(item.picture, illustrator.style().item), item.name), escaped_markup(item.name),
         item.names.size() > 1 ? fmt::format("<div class=\"soft\">{}</div>", escaped_markup(names)) : "",
         escaped_markup(item.size));
   }

@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "balloons.h"
 #include "dismantle/assembly.h"
 #include "dismantle/geometry/congruent_parts.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/input_frame.h"
-#include "balloons.h"
 #include "instructions.h"
 #include "raster.h"
 #include "style.h"

@@ -38,8 +38,8 @@ class ItemFinder {
     for (std::size_t i = 0; i < assembly_.parts.size(); ++i)
       if (!listed_here[i]) rest.push_back(assembly_.parts[i].name);
     if (!rest.empty())
-      content_.base =
-          fmt::format("{} that stay together are not listed: {}", text::counted(rest.size(), "part"), listed_names(rest));
+      content_.base = fmt::format("{} that stay together are not listed: {}", text::counted(rest.size(), "part"),
+                                  listed_names(rest));
     find_products(listed_here);
     std::map<std::size_t, std::size_t> item_of_shape;
     for (std::size_t i = 0; i < assembly_.parts.size(); ++i) {
@@ -102,8 +102,11 @@ class ItemFinder {
   void add_item(std::vector<PlacedPart> picture) {
     Aabb box;
     for (const PlacedPart& placed : picture) box.extend(assembly_.parts[placed.part].mesh->box());
-    content_.items.push_back(
-        {content_.items.size() + 1, {}, {}, std::move(picture), size_text(box.size() / assembly_.normalization.scale, unit_)});
+    content_.items.push_back({content_.items.size() + 1,
+                              {},
+                              {},
+                              std::move(picture),
+                              size_text(box.size() / assembly_.normalization.scale, unit_)});
   }
 
   BookContent& content_;

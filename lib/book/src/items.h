@@ -13,7 +13,7 @@ namespace dismantle {
 
 /// Indices into BookContent::items.
 struct ItemNumbers {
-  std::vector<std::optional<std::size_t>> of_part;   ///< by part; none: it has no item of its own
+  std::vector<std::optional<std::size_t>> of_part;  ///< by part; none: it has no item of its own
   std::map<std::string, std::size_t> of_component;
 };
 

@@ -152,7 +152,7 @@ class PdfPages {
   }
 
   PageStyle style_;
-  std::string foot_;  // of each page
+  std::string foot_;       // of each page
   std::size_t pages_ = 0;  // that are done
   std::string bytes_;
   cairo_surface_t* surface_;
@@ -197,7 +197,8 @@ void job_pages(PdfPages& pdf, const BookContent& content, const BookWords& words
   const std::size_t rows = job_rows(style), per_page = 2 * rows;
   for (std::size_t i = 0; i < content.job.size(); ++i) {
     const std::size_t at = i % per_page;
-    if (at == 0) pdf.text(margin, margin, style.width - 2 * margin, words.label("Fasteners and tools"), 19, style.text, true);
+    if (at == 0)
+      pdf.text(margin, margin, style.width - 2 * margin, words.label("Fasteners and tools"), 19, style.text, true);
     const double x = margin + (at < rows ? 0 : width + gap), y = margin + 34 + double(at % rows) * kJobLine;
     const ContentsLine& line = content.job[i];
     pdf.text(x + (line.heading ? 0 : 10), y, width - 10, line.words, 10, style.text, line.heading, kJobLine - 1);
@@ -219,7 +220,8 @@ void contents_pages(PdfPages& pdf, const BookContent& content, const BookWords& 
     const std::size_t at = i % per_page;
     if (at == 0) pdf.text(margin, margin, style.width - 2 * margin, words.label("Contents"), 19, style.text, true);
     const double x = margin + (at < rows ? 0 : width + gap), y = top + double(at % rows) * line_height;
-    const ContentsLine line = i == 0 ? ContentsLine{words.label("Bill of materials"), 0, true} : content.contents[i - 1];
+    const ContentsLine line =
+        i == 0 ? ContentsLine{words.label("Bill of materials"), 0, true} : content.contents[i - 1];
     pdf.text(x + (line.heading ? 0 : 10), y, width - number_width - 10, line.words, 10, style.text, line.heading, 13);
     pdf.text(x + width - number_width, y, number_width, std::to_string(i == 0 ? materials : steps + line.page), 10,
              style.soft);
@@ -272,8 +274,8 @@ double pdf_box(PdfPages& pdf, const BookPage& page, const Illustrator& illustrat
     const double left = x + double(k) * style.box_width;
     pdf.picture(illustrator.scene(entry.picture, illustrator.style().item), left + 6, y + 4, style.box_width - 12,
                 style.box_height - 22);
-    const std::string words = entry.item == 0 ? fmt::format("{} ×", entry.count)
-                                              : fmt::format("({})  {} ×", entry.item, entry.count);
+    const std::string words =
+        entry.item == 0 ? fmt::format("{} ×", entry.count) : fmt::format("({})  {} ×", entry.item, entry.count);
     pdf.text(left + 8, y + style.box_height - 16, style.box_width - 10, words, 10, style.text, true, 13);
   }
   return style.box_height + 6;
@@ -285,8 +287,8 @@ void pdf_step(PdfPages& pdf, const BookPage& page, const StepPictures& pictures,
   const double margin = style.margin;
   const double width = style.width - 2 * margin, column = 0.33 * width, large = width - column - 18;
   pdf.text(margin, margin - 14, 0.7 * width, page.chapter, 10.5, style.soft);
-  pdf.text(style.width - margin - 96, margin - 14, 96, fmt::format(fmt::runtime(words.label("step {} of {}")), page.number, page.count), 10.5,
-           style.soft);
+  pdf.text(style.width - margin - 96, margin - 14, 96,
+           fmt::format(fmt::runtime(words.label("step {} of {}")), page.number, page.count), 10.5, style.soft);
   const double box = pdf_box(pdf, page, illustrator, margin, margin + 8, large);
   pdf.picture(pictures.apart, margin, margin + 8 + box, large, style.height - 2 * margin - 24 - box);
   if (const std::string caption = caption_of(pictures, words); !caption.empty())

@@ -47,8 +47,8 @@ struct PictureStyle {
 struct PageStyle {
   double width = 842, height = 595;  ///< A4 landscape
   double margin = 40;
-  double smallest_type = 5.5;           ///< of text that would not fit otherwise
-  int item_columns = 5, item_rows = 3;  ///< of a page of the bill of materials
+  double smallest_type = 5.5;              ///< of text that would not fit otherwise
+  int item_columns = 5, item_rows = 3;     ///< of a page of the bill of materials
   double box_width = 92, box_height = 74;  ///< a part in the box of the parts of a step
   Eigen::Vector3d held{0.05, 0.48, 0.58};  ///< circles at parts to hold
   Eigen::Vector3d text{0.13, 0.15, 0.19}, soft{0.4, 0.44, 0.52}, accent{0.76, 0.25, 0.05}, forced{0.8, 0, 0};

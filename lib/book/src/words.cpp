@@ -10,7 +10,9 @@
 namespace dismantle {
 namespace {
 
-bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || (static_cast<unsigned char>(c) & 0x80) != 0; }
+bool in_word(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || (static_cast<unsigned char>(c) & 0x80) != 0;
+}
 
 }  // namespace
 
@@ -58,15 +60,55 @@ std::string BookWords::text(const std::string& english) const {
 
 const std::vector<std::string>& book_labels() {
   static const std::vector<std::string> labels = {
-      "How to put it together", "How to take it apart", "Contents", "Bill of materials", "Fasteners and tools",
-      "The whole assembly", "Assembly", "Sub-assembly {}", "{} ({} parts)", "step {} of {}", "Put in", "Take out",
-      "Move aside", "Move back", "before", "after", "parts", "steps", "size", "directions", "units", "checked", "plan",
-      "made by", "revision", "lies", "base", "of", "because", "you can", "touches", "note", "hold", "tool",
-      "direction", "distance", "length of the path", "instance", "seen {}",
-      "drawn further apart than needed", "right is {}, up is {}, the front is at {}",
+      "How to put it together",
+      "How to take it apart",
+      "Contents",
+      "Bill of materials",
+      "Fasteners and tools",
+      "The whole assembly",
+      "Assembly",
+      "Sub-assembly {}",
+      "{} ({} parts)",
+      "step {} of {}",
+      "Put in",
+      "Take out",
+      "Move aside",
+      "Move back",
+      "before",
+      "after",
+      "parts",
+      "steps",
+      "size",
+      "directions",
+      "units",
+      "checked",
+      "plan",
+      "made by",
+      "revision",
+      "lies",
+      "base",
+      "of",
+      "because",
+      "you can",
+      "touches",
+      "note",
+      "hold",
+      "tool",
+      "direction",
+      "distance",
+      "length of the path",
+      "instance",
+      "seen {}",
+      "drawn further apart than needed",
+      "right is {}, up is {}, the front is at {}",
       "every motion, with parts that overlap by at most {} more than when assembled",
-      "those of the input, which names none", "it is apart already: nothing has to move", "Not verified: {}.",
-      "Not verified: in these steps parts cut into others: {}.", "{} shapes", "Fasteners", "Tools"};
+      "those of the input, which names none",
+      "it is apart already: nothing has to move",
+      "Not verified: {}.",
+      "Not verified: in these steps parts cut into others: {}.",
+      "{} shapes",
+      "Fasteners",
+      "Tools"};
   return labels;
 }
 

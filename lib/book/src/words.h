@@ -18,7 +18,8 @@ class BookWords {
   const std::string& language() const { return language_; }
   /// A fixed text of the book, with its places `{}`.
   const std::string& label(const std::string& english) const;
-  /// A sentence: each longest phrase that is known, as whole words. What stands between quotes '...' is a name and stays.
+  /// A sentence: each longest phrase that is known, as whole words. What stands between quotes '...' is a name and
+  /// stays.
   std::string text(const std::string& english) const;
 
  private:

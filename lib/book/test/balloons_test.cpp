@@ -15,10 +15,12 @@ TEST(Balloons, AreInThePictureApartAndOffTheLinesOfOthers) {
     const int width = 400 + 100 * (trial % 4), height = 300;
     Image image{width, height, std::vector<std::uint32_t>(static_cast<std::size_t>(width) * height, 0)};
     for (int y = height / 4; y < 3 * height / 4; ++y)
-      for (int x = width / 4; x < 3 * width / 4; ++x) image.pixels[static_cast<std::size_t>(y) * width + x] = 0xff808080u;
+      for (int x = width / 4; x < 3 * width / 4; ++x)
+        image.pixels[static_cast<std::size_t>(y) * width + x] = 0xff808080u;
     std::uniform_real_distribution<double> x(0.25 * width, 0.75 * width), y(0.25 * height, 0.75 * height);
     std::vector<Balloon> wanted;
-    for (std::size_t n = 1; n <= 1 + static_cast<std::size_t>(trial) % 12; ++n) wanted.push_back({n, {x(random), y(random)}});
+    for (std::size_t n = 1; n <= 1 + static_cast<std::size_t>(trial) % 12; ++n)
+      wanted.push_back({n, {x(random), y(random)}});
     const std::vector<Balloon> placed = placed_balloons(wanted, image);
     all += placed.size();
     const double radius = balloon_radius(width);

@@ -12,11 +12,18 @@ namespace {
 std::size_t pictures_in(const std::string& gif) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(gif.at(i)); };
   std::size_t at = 13 + 3 * 256, pictures = 0;
-  const auto skip_blocks = [&] { for (; byte(at) != 0; at += byte(at) + 1u) {} ++at; };
+  const auto skip_blocks = [&] {
+    for (; byte(at) != 0; at += byte(at) + 1u) {
+    }
+    ++at;
+  };
   for (; byte(at) != 0x3b;) {
-    if (byte(at) == 0x21) at += 2;
-    else if (byte(at) == 0x2c) at += 11, ++pictures;
-    else throw Error("no block of a GIF");
+    if (byte(at) == 0x21)
+      at += 2;
+    else if (byte(at) == 0x2c)
+      at += 11, ++pictures;
+    else
+      throw Error("no block of a GIF");
     skip_blocks();
   }
   return pictures;

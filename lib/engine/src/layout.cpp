@@ -123,9 +123,10 @@ void LayoutOptions::describe(Schema<LayoutOptions>& s) {
         {.doc = "Plan the transfer of each part from a layout to where it is inserted (Algorithm 3). Off: assembly "
                 "steps begin where the disassembly left the parts."});
   s.add("up", &LayoutOptions::up,
-        {.doc = "What is up in the input's coordinates: x, y, z, -x, -y, -z or X,Y,Z; auto is y for glTF, else z. Gravity "
-                "pulls against it, pictures and words follow it, and parts are laid out on the plane across the nearest "
-                "axis."});
+        {.doc =
+             "What is up in the input's coordinates: x, y, z, -x, -y, -z or X,Y,Z; auto is y for glTF, else z. Gravity "
+             "pulls against it, pictures and words follow it, and parts are laid out on the plane across the nearest "
+             "axis."});
   s.add("gap", &LayoutOptions::gap,
         {.unit = "unit", .min = 1e-3, .max = 100, .doc = "Minimum distance between any two boxes of the layout."});
 }

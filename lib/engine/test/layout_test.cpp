@@ -140,7 +140,9 @@ TEST(Layout, EachLiesAtTheNearestFreePlace) {
   }
 }
 
-TEST(Layout, WantsSomethingToLieAround) { EXPECT_THROW(lay_out({}, {}, Eigen::Vector3d::UnitZ(), 1), std::invalid_argument); }
+TEST(Layout, WantsSomethingToLieAround) {
+  EXPECT_THROW(lay_out({}, {}, Eigen::Vector3d::UnitZ(), 1), std::invalid_argument);
+}
 
 }  // namespace
 }  // namespace dismantle

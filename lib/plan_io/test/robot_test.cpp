@@ -65,7 +65,8 @@ void turn_the_steps(Plan& plan, std::mt19937& random) {
 
 TEST(Mjcf, AKeyframeIsTheStateAfterItsStep) {
   std::mt19937 random(5);
-  for (const Eigen::Vector3d& up : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(0, 0.6, -0.8)}) {
+  for (const Eigen::Vector3d& up :
+       {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(0, 0.6, -0.8)}) {
     auto [plan, assembly] = random_disassembly(random, 7);
     turn_the_steps(plan, random);
     InputFrame frame = input_frame(plan.assembly);

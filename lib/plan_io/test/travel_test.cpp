@@ -68,7 +68,8 @@ TEST(Travel, APinIsLedByItsHoleAndALidRests) {
     const auto distances = guided_distances(plan_of(a), a);
     ASSERT_EQ(distances.size(), 2u);
     EXPECT_NEAR(distances[0].value(), 0, 1e-9);
-    EXPECT_NEAR(distances[1].value(), 1.5, 1e-9) << "from the rear end of the pin to the rim of the hole, not to the wall";
+    EXPECT_NEAR(distances[1].value(), 1.5, 1e-9)
+        << "from the rear end of the pin to the rim of the hole, not to the wall";
   }
 }
 
@@ -98,8 +99,10 @@ TEST(Travel, IsNeverLongerThanThePathAndNoneWhereThePathIsNotStraight) {
 }
 
 TEST(Travel, WordsSayWhatIsSeen) {
-  const MotionSummary motion = summarize_motion({Pose{}, Pose{{0, 0, -4}, Eigen::Quaterniond::Identity()}}, {0, 0, 0}, 0.1);
-  const MotionPhrase together{{"mm", 25.4}, Eigen::Vector3d::UnitZ(), 10, false}, apart{{"mm", 25.4}, Eigen::Vector3d::UnitZ(), 10, true};
+  const MotionSummary motion =
+      summarize_motion({Pose{}, Pose{{0, 0, -4}, Eigen::Quaterniond::Identity()}}, {0, 0, 0}, 0.1);
+  const MotionPhrase together{{"mm", 25.4}, Eigen::Vector3d::UnitZ(), 10, false},
+      apart{{"mm", 25.4}, Eigen::Vector3d::UnitZ(), 10, true};
   const auto upright = Eigen::Quaterniond::Identity();
   EXPECT_EQ(travel_words(motion, 2.0, together, upright), "50.8 mm down (-Z)");
   EXPECT_EQ(travel_words(motion, 0.0, together, upright), "down (-Z), until it seats");

@@ -64,9 +64,11 @@ void PrepareOptions::describe(Schema<PrepareOptions>& s) {
                               "Which parts count as flexible: other parts that are in them when assembled may cut into "
                               "them as deep as they are "
                               "thick.");
-  s.add("unit", &PrepareOptions::unit,
-        {.doc = "Unit of length of an input that names none: mm, cm, m, inch... Sizes of fasteners, weights and what people "
-                "read depend on it. Empty: not known; sizes are then looked up as if in mm."});
+  s.add(
+      "unit", &PrepareOptions::unit,
+      {.doc =
+           "Unit of length of an input that names none: mm, cm, m, inch... Sizes of fasteners, weights and what people "
+           "read depend on it. Empty: not known; sizes are then looked up as if in mm."});
   s.add("max_triangles", &PrepareOptions::max_triangles,
         {.unit = "1",
          .min = 1.0,

@@ -31,12 +31,13 @@ TEST(Constraints, NothingToConstrainIsNoFile) {
 
 TEST(Constraints, OtherThingsAreRefused) {
   using nlohmann::json;
-  for (const json& wrong : {json::array(), json{{"run", {{"seed", 1}}}}, json{{"base", "housing"}}, json{{"base", {1}}},
-                            json{{"base", {"none"}}}, json{{"together", {"lid"}}}, json{{"together", "lid"}},
-                            json{{"target", "none"}}, json{{"target", 1}}, json{{"accept", {"lid"}}},
-                            json::parse(R"({"accept": [{"part": "lid", "against": "none", "as": "snap", "depth": 1}]})"),
-                            json::parse(R"({"accept": [{"part": "lid", "against": "yes", "as": "snap", "depth": 0}]})"),
-                            json::parse(R"({"accept": [{"part": "lid", "against": "yes", "as": 1, "depth": 1}]})")})
+  for (const json& wrong :
+       {json::array(), json{{"run", {{"seed", 1}}}}, json{{"base", "housing"}}, json{{"base", {1}}},
+        json{{"base", {"none"}}}, json{{"together", {"lid"}}}, json{{"together", "lid"}}, json{{"target", "none"}},
+        json{{"target", 1}}, json{{"accept", {"lid"}}},
+        json::parse(R"({"accept": [{"part": "lid", "against": "none", "as": "snap", "depth": 1}]})"),
+        json::parse(R"({"accept": [{"part": "lid", "against": "yes", "as": "snap", "depth": 0}]})"),
+        json::parse(R"({"accept": [{"part": "lid", "against": "yes", "as": 1, "depth": 1}]})")})
     EXPECT_THROW(constraints_yaml(wrong, kParts, ""), Error) << wrong;
   EXPECT_THROW(constraints_in("constraints: {base: housing}"), Error);
   EXPECT_THROW(constraints_in("{"), Error);

@@ -7,7 +7,8 @@
 
 namespace dismantle {
 
-/// Creates the plugins that `config` chooses, for an assembly that lies with `up` up. `registry` must outlive the result. @throws PluginError.
+/// Creates the plugins that `config` chooses, for an assembly that lies with `up` up. `registry` must outlive the
+/// result. @throws PluginError.
 PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registry, const Eigen::Vector3d& up);
 
 /// Everything that a configuration says about a run. Without the constraints, which are about one assembly.

@@ -227,12 +227,10 @@ RunResult Session::plan(const LoadedAssembly& loaded, const std::optional<RunCon
     if (!request.part.empty()) throw Error("a plan of one part does not go on from another plan");
     options.resume = *request.steps;
   }
-  const PlanningSetup setup =
-      checked_setup(config(), *registry_, request.part, up_of(config().layout, *assembly));
+  const PlanningSetup setup = checked_setup(config(), *registry_, request.part, up_of(config().layout, *assembly));
   if (!request.part.empty()) return run(*assembly, setup, options, context, request.on_step);
   const bool keeps = setup.sequence_planner->traits().keeps_constraints;
-  const auto components =
-      kept_components(*assembly, config(), keeps, options.resume ? &*options.resume : nullptr);
+  const auto components = kept_components(*assembly, config(), keeps, options.resume ? &*options.resume : nullptr);
   keep_together(components, options.constraints);
   RunResult result = run(*assembly, setup, options, context, request.on_step);
   result.plan.assembly.components = plan_components(components, result.plan);

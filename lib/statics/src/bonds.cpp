@@ -12,8 +12,8 @@ bool is_of_ldraw(const Part& part) {
   return extension == ".mpd" || extension == ".ldr" || extension == ".dat";
 }
 
-/// Parts of LDraw models hold each other by studs, pins and clips, which are drawn without interference. Two are coupled
-/// where one reaches into the other: their boxes share more than what touches.
+/// Parts of LDraw models hold each other by studs, pins and clips, which are drawn without interference. Two are
+/// coupled where one reaches into the other: their boxes share more than what touches.
 bool is_coupled(const Part& a, const Part& b, double gap) {
   if (!is_of_ldraw(a) || !is_of_ldraw(b)) return false;
   const Aabb x = a.mesh->box(), y = b.mesh->box();

@@ -25,8 +25,7 @@ DirectedCheck::DirectedCheck(const Solid& a, const Solid& b, const RelativeMotio
       limits_(limits),
       budget_(budget),
       patch_of_(a.mesh.triangles.size(), kNoIndex),
-      unclear_(
-          std::make_shared<std::vector<double>>(a.mesh.triangles.size(), std::numeric_limits<double>::infinity())),
+      unclear_(std::make_shared<std::vector<double>>(a.mesh.triangles.size(), std::numeric_limits<double>::infinity())),
       walls_(a.open || b.open),
       lean_(lean) {}
 

@@ -3,8 +3,8 @@
 #include <map>
 #include <utility>
 
-#include "dismantle/plan_io/shading.h"
 #include "dismantle/plan_io/motion_words.h"
+#include "dismantle/plan_io/shading.h"
 #include "glb/glb_colours.h"
 
 namespace dismantle {
@@ -52,7 +52,8 @@ GlbScene::GlbScene(const Plan& plan, const Assembly& assembly, const InputFrame&
   if (!turn.vec().isZero(0)) root["rotation"] = array_of(turn);
   root["scale"] = {frame.metres, frame.metres, frame.metres};
   const std::string up = axis_text(frame.up);
-  root["extras"] = {{"input_unit", frame.unit}, {"unit_known", frame.unit_known}, {"input_up", up[0] == '+' ? up.substr(1) : up}};
+  root["extras"] = {
+      {"input_unit", frame.unit}, {"unit_known", frame.unit_known}, {"input_up", up[0] == '+' ? up.substr(1) : up}};
   nodes_.push_back(nullptr);
 
   const std::vector<GlbPaint> paints = paint_parts(plan, assembly);

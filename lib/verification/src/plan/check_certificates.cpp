@@ -129,10 +129,10 @@ CertificateFindings check_certificates_of(const Plan& plan, const Assembly& asse
     if (const std::string problem = check.problem_of(plan.certificates[i]); !problem.empty())
       problems.push_back(fmt::format("certificate {} ({}) does not hold: {}", i, kind, problem));
     else if (!check.can_check(kind))
-      found.not_checked.push_back(
-          fmt::format("certificate {}: there is no immobility prover '{}' to check it: name the folder of its plugin in "
-                      "DISMANTLE_PLUGIN_PATH, or in plugins.search_paths of a configuration",
-                      i, kind));
+      found.not_checked.push_back(fmt::format(
+          "certificate {}: there is no immobility prover '{}' to check it: name the folder of its plugin in "
+          "DISMANTLE_PLUGIN_PATH, or in plugins.search_paths of a configuration",
+          i, kind));
   }
   for (const PlanUnsolved& u : plan.unsolved) {
     const PlanCertificate* certificate =

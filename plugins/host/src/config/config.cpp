@@ -89,7 +89,8 @@ class Loader {
   }
 
   void check_top_level() {
-    std::vector<std::string> known = {"schema", "extends", "plugins", "importers", "constraints", "components", "parts"};
+    std::vector<std::string> known = {"schema",      "extends",    "plugins", "importers",
+                                      "constraints", "components", "parts"};
     for (const auto& section : plugin_sections()) known.push_back(section.name);
     for (const auto& section : fixed_sections()) known.push_back(section.first);
     for (const auto& member : root_.members)
@@ -283,9 +284,10 @@ class Loader {
 
   void check_up(const ConfigNode& layout) {
     const ConfigMember* up = layout.find("up");
-    if (up == nullptr || !up->value.is_scalar() || up->value.scalar == "auto" || direction_named(up->value.scalar)) return;
-    problems_.push_back(up->value.mark.error(fmt::format("layout.up: '{}' is no direction; write auto, {}",
-                                                         up->value.scalar, kDirectionForms)));
+    if (up == nullptr || !up->value.is_scalar() || up->value.scalar == "auto" || direction_named(up->value.scalar))
+      return;
+    problems_.push_back(up->value.mark.error(
+        fmt::format("layout.up: '{}' is no direction; write auto, {}", up->value.scalar, kDirectionForms)));
   }
 
   /// Reads `layout.poses`, a map from part names to poses, and returns the section with the plain parameters only.

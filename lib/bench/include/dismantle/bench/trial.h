@@ -18,10 +18,10 @@ struct TrialRequest {
   ParamSet sample_values;
   bool rotate = false;
   std::int64_t seed = 1;
-  std::string part;               ///< empty: the whole assembly
-  std::filesystem::path inputs;   ///< folder for generated assemblies: samples, rotated ones, translated ones
-  std::string input_name;         ///< name of a generated assembly in `inputs`
-  double max_penetration = 0;     ///< the verifier's tolerance, for an assembly of size 10
+  std::string part;                  ///< empty: the whole assembly
+  std::filesystem::path inputs;      ///< folder for generated assemblies: samples, rotated ones, translated ones
+  std::string input_name;            ///< name of a generated assembly in `inputs`
+  double max_penetration = 0;        ///< the verifier's tolerance, for an assembly of size 10
   std::vector<std::string> plugins;  ///< plugins.search_paths of the planner, for the verifier
   std::size_t search_nodes = 0;      ///< nodes of search trees that the trial keeps
 };

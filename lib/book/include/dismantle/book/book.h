@@ -31,12 +31,12 @@ inline bool same_places(const std::string& english, const std::string& other) {
 }
 
 struct BookOptions {
-  InputFrame frame;          ///< unit and up axis of the input
-  bool disassembly = false;  ///< true: instructions for disassembly; false: for assembly
-  std::string title;         ///< empty: the name of the plan's source, without the extension of a CAD file
-  std::string revision;             ///< of the instructions; empty: none is stated
-  std::vector<BookNote> notes{};    ///< on steps; those of other steps are not printed
-  std::string language = "en";      ///< as in HTML
+  InputFrame frame;               ///< unit and up axis of the input
+  bool disassembly = false;       ///< true: instructions for disassembly; false: for assembly
+  std::string title;              ///< empty: the name of the plan's source, without the extension of a CAD file
+  std::string revision;           ///< of the instructions; empty: none is stated
+  std::vector<BookNote> notes{};  ///< on steps; those of other steps are not printed
+  std::string language = "en";    ///< as in HTML
   /// English text of the book, what stands there instead. Both have the same places: see same_places().
   std::map<std::string, std::string> phrases{};
   /// Called before each page with its number (from 1) and the number of pages. It may throw to stop.

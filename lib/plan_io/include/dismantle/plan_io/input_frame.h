@@ -18,7 +18,7 @@ struct InputFrame {
   bool unit_known = false;  ///< false: the files name none, and `unit` is the usual one of CAD, "mm" (of glTF: "m")
   double metres = 1e-3;     ///< per input unit, > 0
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit; Y for input from glTF; all else counts as Z up, as in CAD
-  std::string shown{};      ///< unit in which texts state lengths; empty: the one that people use
+  std::string shown{};                            ///< unit in which texts state lengths; empty: the one that people use
 
   /// Turns input axes to those of glTF.
   Eigen::Quaterniond to_y_up() const;
@@ -26,8 +26,8 @@ struct InputFrame {
   Eigen::Quaterniond lies(const std::optional<Eigen::Vector3d>& way_up) const;
 };
 
-/// Turns the direction `up` (unit) to Z by the shortest way; -Z over the front, so that right stays right. In the turned
-/// frame right is X and back is Y.
+/// Turns the direction `up` (unit) to Z by the shortest way; -Z over the front, so that right stays right. In the
+/// turned frame right is X and back is Y.
 DISMANTLE_API Eigen::Quaterniond upright(const Eigen::Vector3d& up);
 
 /// Unit in which texts state lengths, and how many of it one input unit is.

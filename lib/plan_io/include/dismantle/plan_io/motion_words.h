@@ -42,10 +42,10 @@ DISMANTLE_API std::string figure_text(double x);
 /// "+Z", "(-0.71, 0, -0.71)".
 DISMANTLE_API std::string axis_text(const Eigen::Vector3d& direction);
 
-/// "up (+Z)", "left and down (-0.71, 0, -0.71)": the axes of the assembly seen by someone who stands before it. `drawn_up`
-/// (unit) points up in drawings: with Z up it is seen from -Y, with Y up from +Z, see upright(). `direction` need not be
-/// a unit vector. `lies`: how the assembly is turned, from how it is drawn; the words are for the person, the axis that of the
-/// assembly.
+/// "up (+Z)", "left and down (-0.71, 0, -0.71)": the axes of the assembly seen by someone who stands before it.
+/// `drawn_up` (unit) points up in drawings: with Z up it is seen from -Y, with Y up from +Z, see upright(). `direction`
+/// need not be a unit vector. `lies`: how the assembly is turned, from how it is drawn; the words are for the person,
+/// the axis that of the assembly.
 /// @throws Error for a direction without length.
 DISMANTLE_API std::string direction_words(const Eigen::Vector3d& direction, const Eigen::Vector3d& drawn_up,
                                           const Eigen::Quaterniond& lies = Eigen::Quaterniond::Identity());
@@ -56,7 +56,8 @@ DISMANTLE_API std::string lie_words(const Eigen::Vector3d& up, const Eigen::Vect
 /// "40 mm down (-Z), then 3 mm left (-X)", "15 mm down (-Z), turning clockwise by 5 turns": one phrase. All slides
 /// along three orthogonal axes are told, of other motions up to four legs. Clockwise is seen along the motion, or along
 /// the axis that is named. `unit` may be empty.
-DISMANTLE_API std::string motion_words(const MotionSummary& motion, const std::string& unit, const Eigen::Vector3d& drawn_up,
+DISMANTLE_API std::string motion_words(const MotionSummary& motion, const std::string& unit,
+                                       const Eigen::Vector3d& drawn_up,
                                        const Eigen::Quaterniond& lies = Eigen::Quaterniond::Identity());
 
 }  // namespace dismantle

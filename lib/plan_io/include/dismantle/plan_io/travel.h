@@ -25,9 +25,9 @@ using PosedParts = std::vector<std::pair<std::size_t, Pose>>;
 DISMANTLE_API double guided_distance(const Assembly& assembly, const PosedParts& moving, const PosedParts& fixed,
                                      const Eigen::Vector3d& direction);
 
-/// By step of Plan::disassembly: how far its parts are led, when it is one straight motion without a turn by which parts
-/// leave the others (input units, not more than the length of the path). None: the whole path is what there is to say.
-/// Empty: not measured.
+/// By step of Plan::disassembly: how far its parts are led, when it is one straight motion without a turn by which
+/// parts leave the others (input units, not more than the length of the path). None: the whole path is what there is to
+/// say. Empty: not measured.
 using GuidedDistances = std::vector<std::optional<double>>;
 
 /// @throws InputError when the plan has a part that the assembly lacks.
@@ -44,10 +44,10 @@ DISMANTLE_API double stated_distance(const MotionSummary& motion, std::optional<
 
 /// How a motion is told.
 struct MotionPhrase {
-  TextUnit unit;             ///< of lengths
+  TextUnit unit;                                  ///< of lengths
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< as `drawn_up` of motion_words()
-  double size = 1;           ///< largest edge of the assembly, input units
-  bool disassembly = false;  ///< the part leaves
+  double size = 1;                                ///< largest edge of the assembly, input units
+  bool disassembly = false;                       ///< the part leaves
 };
 /// The words of motion_words() with the guided distance instead of the length of the path: "12 mm down (-Z)", or
 /// "down (-Z), until it seats" (in the disassembly "up (+Z), free at once") for a part that only rests on the others.

@@ -23,7 +23,7 @@ struct PlanProblem {
 
 /// Result of the check of a whole plan.
 struct PlanCheck {
-  bool valid = false;                 ///< all motions, separations, stated depths and certificates are as the plan says
+  bool valid = false;  ///< all motions, separations, stated depths and certificates are as the plan says
   /// Valid, every forced step is accepted by the user, and what was asked for is done (is_done()).
   bool complete = false;
   std::size_t forced = 0;             ///< forced steps: not valid motions; their stated depths were checked
@@ -33,7 +33,7 @@ struct PlanCheck {
   double max_penetration = 0;         ///< worst certified bound over all steps
   std::vector<double> step_penetration;
   std::vector<double> forced_depth{};  ///< by step: as measured, assembly units; 0 for steps that are not forced
-  std::size_t verdicts = 0;  ///< of step checks, judged again by judge_again() (dismantle/engine/judgement.h)
+  std::size_t verdicts = 0;            ///< of step checks, judged again by judge_again() (dismantle/engine/judgement.h)
   std::vector<std::string> not_checked{};  ///< "'acme.x': ...": checks and proofs whose plugin is not available
   std::vector<PlanProblem> problems;
 };
