@@ -144,6 +144,7 @@ export class Stage {
 
   /** Where a point of the scene is, CSS pixels of the window. */
   onScreen(point) {
+    this.camera.updateMatrixWorld();  // it may have moved since the last frame
     const p = new THREE.Vector3(...point).project(this.camera), box = this.renderer.domElement.getBoundingClientRect();
     return [box.left + (p.x + 1) * box.width / 2, box.top + (1 - p.y) * box.height / 2];
   }
