@@ -148,7 +148,8 @@ void bind_simulator(py::module_& m) {
            "> 0.")
       .def("worlds", &HeldSimulator::worlds, py::arg("assembly"), py::arg("moving"), py::arg("count"),
            py::arg("fixed") = py::none(), py::arg("space") = "rigid", py::arg("tolerance") = kDefaultTolerance,
-           py::arg("threads") = 1, "Makes `count` equal worlds that are stepped together, on so many threads: Worlds.");
+           py::arg("threads") = 1,
+           "Makes `count` equal worlds that are stepped together on `threads` threads: Worlds.");
 }
 
 }  // namespace dismantle::python

@@ -192,24 +192,27 @@ Viewpoint Illustrator::best_view(const BookStep& step, const std::vector<PlacedP
   return best;
 }
 
-StepPictures Illustrator::step(const BookStep& step, bool disassembly, double scale, const PartNumbers& numbers,
-                               const std::vector<std::size_t>& held) const {
-  const auto scaled = [scale](int pixels) { return static_cast<int>(scale * pixels); };
-  const int width = scaled(style_.step.width), height = scaled(style_.step.height);
-  const int small_width = scaled(style_.placed.width), small_height = scaled(style_.placed.height);
-  // Choose the poses that show each mover in its place and away from it: the ends of its path, unless the path is long.
-  std::vector<std::size_t> at_place, at_away;
-  double extent = 0;
-  Aabb standing;
-  for (const PlacedPart& p : step.standing)
-    for (const auto& v : corners({p})) standing.extend(v);
-  for (const BookMover& mover : step.movers) {
-    Aabb own;
+/// The poses of a step that show each mover in its place and away from it.
+struct Illustrator::Arrangement {
+  std::vector<std::size_t> at_place, at_away;  // by mover: index of its pose
+  std::vector<Eigen::Vector3d> further;        // by mover: how far it is drawn beyond its pose
+  std::vector<PlacedPart> placed, away;
+  Eigen::Matrix3d axes;
+};
+
+double Illustrator::extent_of(const BookStep& step, bool disassembly) const {
+  Aabb all;
+  for (const auto& v : corners(step.standing)) all.extend(v);
+  for (const BookMover& mover : step.movers)
     for (const std::size_t part : mover.parts)
-      for (const auto& v : corners({{part, disassembly ? mover.poses.front() : mover.poses.back()}})) own.extend(v);
-    standing.extend(own);
-  }
-  if (!standing.empty()) extent = standing.size().norm();
+      for (const auto& v : corners({{part, disassembly ? mover.poses.front() : mover.poses.back()}})) all.extend(v);
+  return all.empty() ? 0 : all.size().norm();
+}
+
+/// Away are the ends of the paths, unless a path is long.
+Illustrator::Arrangement Illustrator::arranged(const BookStep& step, bool disassembly) const {
+  Arrangement out;
+  const double extent = extent_of(step, disassembly);
   for (const BookMover& mover : step.movers) {
     const std::size_t last = mover.poses.size() - 1, place = disassembly ? 0 : last;
     std::size_t away = disassembly ? last : 0;
@@ -220,68 +223,92 @@ StepPictures Illustrator::step(const BookStep& step, bool disassembly, double sc
       away = at;
       break;
     }
-    at_place.push_back(place);
-    at_away.push_back(away);
+    out.at_place.push_back(place);
+    out.at_away.push_back(away);
+    out.further.push_back(stretch(mover, away, place, extent));
   }
-  auto away = movers_at(step, at_away);
-  const auto placed = movers_at(step, at_place);
-  StepPictures out;
-  std::vector<Eigen::Vector3d> further;
-  for (std::size_t m = 0, p = 0; m < step.movers.size(); ++m) {
-    further.push_back(stretch(step.movers[m], at_away[m], at_place[m], extent));
-    out.stretched = out.stretched || !further.back().isZero(0);
-    for (std::size_t k = 0; k < step.movers[m].parts.size(); ++k) away[p++].pose.t += further.back();
-  }
-  out.view = best_view(step, away, placed);
-  const Eigen::Matrix3d axes = axes_of(out.view, frame_.lies(step.up));
-  const auto bodies_with = [&](const std::vector<PlacedPart>& movers) {
-    std::vector<DrawnBody> bodies;
-    for (const PlacedPart& p : step.standing) bodies.push_back(body_of(p, false));
-    for (const PlacedPart& p : movers) bodies.push_back(body_of(p, true));
-    return bodies;
-  };
+  out.placed = movers_at(step, out.at_place);
+  out.away = movers_at(step, out.at_away);
+  for (std::size_t m = 0, p = 0; m < step.movers.size(); ++m)
+    for (std::size_t k = 0; k < step.movers[m].parts.size(); ++k) out.away[p++].pose.t += out.further[m];
+  return out;
+}
 
-  // Show all parts. Zoom in if the moving parts would be too small.
-  std::vector<Eigen::Vector3d> moving = corners(away);
-  const auto there = corners(placed);
+std::vector<DrawnBody> Illustrator::bodies_with(const BookStep& step, const std::vector<PlacedPart>& movers) const {
+  std::vector<DrawnBody> bodies;
+  for (const PlacedPart& p : step.standing) bodies.push_back(body_of(p, false));
+  for (const PlacedPart& p : movers) bodies.push_back(body_of(p, true));
+  return bodies;
+}
+
+StepPictures Illustrator::step(const BookStep& step, bool disassembly, double scale, const PartNumbers& numbers,
+                               const std::vector<std::size_t>& held) const {
+  const auto scaled = [scale](const PictureSize& size) {
+    return PictureSize{static_cast<int>(scale * size.width), static_cast<int>(scale * size.height)};
+  };
+  Arrangement arrangement = arranged(step, disassembly);
+  StepPictures out;
+  out.stretched = std::any_of(arrangement.further.begin(), arrangement.further.end(),
+                              [](const Eigen::Vector3d& v) { return !v.isZero(0); });
+  out.view = best_view(step, arrangement.away, arrangement.placed);
+  arrangement.axes = axes_of(out.view, frame_.lies(step.up));
+  out.apart = draw_apart(step, arrangement, disassembly, scaled(style_.step), numbers, held);
+  out.placed = draw_placed(step, arrangement, scaled(style_.placed));
+  return out;
+}
+
+/// Shows all parts. Zooms in if the moving parts would be too small.
+Picture Illustrator::draw_apart(const BookStep& step, const Arrangement& arrangement, bool disassembly,
+                                const PictureSize& size, const PartNumbers& numbers,
+                                const std::vector<std::size_t>& held) const {
+  std::vector<Eigen::Vector3d> moving = corners(arrangement.away), all = corners(step.standing);
+  const auto there = corners(arrangement.placed);
   moving.insert(moving.end(), there.begin(), there.end());
-  std::vector<Eigen::Vector3d> all = corners(step.standing);
   all.insert(all.end(), moving.begin(), moving.end());
-  Camera camera = camera_for(all, axes, width, height);
-  const Camera near = camera_for(moving, axes, width, height);
+  Camera camera = camera_for(all, arrangement.axes, size.width, size.height);
+  const Camera near = camera_for(moving, arrangement.axes, size.width, size.height);
   const bool zoomed = camera.scale < style_.smallest * near.scale;
   if (zoomed) {
     camera = near;
     camera.scale *= 2 * style_.smallest;
   }
-  const std::vector<DrawnBody> bodies = bodies_with(away);
-  out.apart.image = draw(bodies, camera, width, height, style_.lines);
-  if (zoomed) fade_out(out.apart.image, style_.fade);
+  const std::vector<DrawnBody> bodies = bodies_with(step, arrangement.away);
+  Picture out;
+  out.image = draw(bodies, camera, size.width, size.height, style_.lines);
+  if (zoomed) fade_out(out.image, style_.fade);
   if (!numbers.empty()) {
     std::vector<std::size_t> parts;
     PartNumbers shown(numbers.size(), 0);
     for (const PlacedPart& p : step.standing) parts.push_back(p.part);
-    for (const PlacedPart& p : away) {
+    for (const PlacedPart& p : arrangement.away) {
       parts.push_back(p.part);
       shown[p.part] = numbers[p.part];
     }
     for (const std::size_t part : held) shown[part] = numbers[part];
-    number_parts(out.apart, bodies, parts, camera, shown, held);
+    number_parts(out, bodies, parts, camera, shown, held);
   }
   for (std::size_t m = 0; m < step.movers.size(); ++m) {
     const BookMover& mover = step.movers[m];
+    const auto [from, to] = std::minmax(arrangement.at_away[m], arrangement.at_place[m]);
+    const auto shown_at = [&](const Eigen::Vector3d& p) {
+      return Eigen::Vector2d(camera.project(p, size.width, size.height).head<2>());
+    };
     std::vector<Eigen::Vector2d> line;
-    const std::size_t from = std::min(at_away[m], at_place[m]), to = std::max(at_away[m], at_place[m]);
-    for (std::size_t k = from; k <= to; ++k)
-      line.push_back(camera.project(mover.poses[k] * mover.center, width, height).head<2>());
-    const Eigen::Vector3d end = mover.poses[at_away[m]] * mover.center + further[m];
-    line.insert(disassembly ? line.end() : line.begin(), camera.project(end, width, height).head<2>());
-    out.apart.arrows.push_back(std::move(line));
+    for (std::size_t k = from; k <= to; ++k) line.push_back(shown_at(mover.poses[k] * mover.center));
+    const Eigen::Vector3d end = mover.poses[arrangement.at_away[m]] * mover.center + arrangement.further[m];
+    line.insert(disassembly ? line.end() : line.begin(), shown_at(end));
+    out.arrows.push_back(std::move(line));
   }
-  ring_specks(out.apart, away, camera);
+  ring_specks(out, arrangement.away, camera);
+  return out;
+}
+
+/// With the tools.
+Picture Illustrator::draw_placed(const BookStep& step, const Arrangement& arrangement, const PictureSize& size) const {
   std::vector<Eigen::Vector3d> whole = corners(step.standing);
+  const auto there = corners(arrangement.placed);
   whole.insert(whole.end(), there.begin(), there.end());
-  std::vector<DrawnBody> in_place = bodies_with(placed);
+  std::vector<DrawnBody> bodies = bodies_with(step, arrangement.placed);
   std::vector<ShadedMesh> tools;
   tools.reserve(step.tools.size());  // bodies point to them
   for (const DrawnTool& tool : step.tools) {
@@ -289,18 +316,16 @@ StepPictures Illustrator::step(const BookStep& step, bool disassembly, double sc
     whole.insert(whole.end(), solid.vertices.begin(), solid.vertices.end());
     for (auto& v : solid.vertices) v -= tool.origin;
     tools.push_back(shade(solid));
-    in_place.push_back({&tools.back(), {tool.origin, Eigen::Quaterniond::Identity()}, style_.tool, false});
+    bodies.push_back({&tools.back(), {tool.origin, Eigen::Quaterniond::Identity()}, style_.tool, false});
   }
-  const Camera around = camera_for(whole, axes, small_width, small_height);
-  out.placed.image = draw(in_place, around, small_width, small_height, style_.lines);
-  ring_specks(out.placed, placed, around);
+  const Camera camera = camera_for(whole, arrangement.axes, size.width, size.height);
+  Picture out;
+  out.image = draw(bodies, camera, size.width, size.height, style_.lines);
+  ring_specks(out, arrangement.placed, camera);
   return out;
 }
 
 Image Illustrator::moment(const BookStep& step, const std::vector<PlacedPart>& movers, const PictureSize& size) const {
-  std::vector<DrawnBody> bodies;
-  for (const PlacedPart& p : step.standing) bodies.push_back(body_of(p, false));
-  for (const PlacedPart& p : movers) bodies.push_back(body_of(p, true));
   std::vector<Eigen::Vector3d> whole;  // the same camera in all steps
   const Aabb& box = assembly_.input_box;
   for (int c = 0; c < 8; ++c)
@@ -308,7 +333,7 @@ Image Illustrator::moment(const BookStep& step, const std::vector<PlacedPart>& m
                        (c & 4) ? box.hi.z() : box.lo.z());
   Camera camera = camera_for(whole, axes_of({}, frame_.lies(step.up)), size.width, size.height);
   camera.scale *= style_.film;
-  return draw(bodies, camera, size.width, size.height, style_.lines);
+  return draw(bodies_with(step, movers), camera, size.width, size.height, style_.lines);
 }
 
 std::string caption_of(const StepPictures& pictures, const BookWords& words) {

@@ -78,6 +78,15 @@ class Illustrator {
   const std::vector<geometry::ShapePlacement>& shapes() const { return placements_; }
 
  private:
+  struct Arrangement;
+  /// Of all parts, with the movers in their place; input units.
+  double extent_of(const BookStep& step, bool disassembly) const;
+  Arrangement arranged(const BookStep& step, bool disassembly) const;
+  /// What stands there, and the movers, which are marked.
+  std::vector<DrawnBody> bodies_with(const BookStep& step, const std::vector<PlacedPart>& movers) const;
+  Picture draw_apart(const BookStep& step, const Arrangement& arrangement, bool disassembly, const PictureSize& size,
+                     const PartNumbers& numbers, const std::vector<std::size_t>& held) const;
+  Picture draw_placed(const BookStep& step, const Arrangement& arrangement, const PictureSize& size) const;
   /// `parts`: of the bodies.
   void number_parts(Picture& picture, const std::vector<DrawnBody>& bodies, const std::vector<std::size_t>& parts,
                     const Camera& camera, const PartNumbers& numbers, const std::vector<std::size_t>& held) const;

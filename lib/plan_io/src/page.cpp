@@ -118,7 +118,7 @@ std::string for_script(const std::string& json) {
   return out;
 }
 
-/// The plan without what nobody draws: proofs of holds.
+/// The plan without proofs of holds, which the page does not show.
 std::string drawn_json(Plan plan) {
   for (std::vector<PlanStep>* steps : {&plan.disassembly, &plan.assembly_steps})
     for (PlanStep& step : *steps)

@@ -26,7 +26,7 @@ class Springs {
   bool minimize(const Eigen::VectorXd& anchor, const std::function<bool()>& stop);
   /// Coulomb: begins at `x`, with the limits of friction of the pressure there.
   void start_at(const Eigen::VectorXd& x);
-  /// Coulomb: so many bodies that they give way farther than one contact does.
+  /// Coulomb: with this many bodies, a pile gives way by more than a single contact does.
   bool is_long() const { return proximal_least_ < kProximal; }
   /// A smaller weight of the proximal term from now on.
   void lengthen_steps();

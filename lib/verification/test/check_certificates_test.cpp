@@ -129,7 +129,7 @@ TEST_F(CheckCertificates, ForgedOnesDoNot) {
   }
 }
 
-/// Whoever has no checker of a third party's proofs cannot say that they are wrong, or that they hold.
+/// Without the checker of a third party's proof, the proof is neither right nor wrong.
 TEST_F(CheckCertificates, OneWithoutItsProverIsNotChecked) {
   plan_.certificates.push_back(plan_.certificates[0]);
   plan_.certificates[1].kind = "rumour";

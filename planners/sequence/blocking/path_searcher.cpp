@@ -78,8 +78,9 @@ bool PathSearcher::search(GroupState& group, SubassemblyId id, unsigned depth, c
     message += (message.empty() ? "'" : "; '") + state_.assembly().parts[snap->part].name + "' and '" +
                state_.assembly().parts[snap->other].name + "' snap: a straight motion cuts in by little (" +
                "sequence_planner.snap_share), so no longer path was searched for";
-    // Whoever names what blocks it asks for a proof that the two never separate. A proof needs cells far smaller than
-    // what holds the parts beyond the tolerance: for a snap of a few tolerances it takes long and finds nothing.
+    // The engine tries to prove that a part and the one that blocks it never separate. The cells of such a proof are
+    // far smaller than what holds the parts beyond the tolerance: for a snap of a few tolerances it takes long and
+    // fails.
     constexpr double kHopeless = 4;
     if (snap->excess() < kHopeless * oracle_.tolerance()) blocked_by.clear();
   }

@@ -40,10 +40,10 @@ void Run::make_strategies() {
   if (straight_) {
     list_.add(std::make_unique<TargetFirst>(state_, *straight_));
     if (params_.upwards == Upwards::on) {
-      list_.add(std::make_unique<FreePart>(state_, *straight_, Course::up));
-      list_.add(std::make_unique<FreePart>(state_, *straight_, Course::not_down));
+      list_.add(std::make_unique<FreePart>(state_, *straight_, DirectionFilter::up));
+      list_.add(std::make_unique<FreePart>(state_, *straight_, DirectionFilter::not_down));
       if (params_.groups)
-        list_.add(std::make_unique<FreeGroup>(state_, *straight_, params_.group_proposals, Course::not_down));
+        list_.add(std::make_unique<FreeGroup>(state_, *straight_, params_.group_proposals, DirectionFilter::not_down));
     }
     list_.add(std::make_unique<FreePart>(state_, *straight_));
     if (params_.groups) list_.add(std::make_unique<FreeGroup>(state_, *straight_, params_.group_proposals));

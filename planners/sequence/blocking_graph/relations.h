@@ -36,7 +36,7 @@ using RelationKey = std::tuple<PartId, PartId, std::size_t, long, long, long, st
 struct ShapeQuestion {
   PartId moving = 0, fixed = 0;                       ///< first parts of the two shapes
   std::array<std::int64_t, 3> offset{}, direction{};  ///< of `moving`, in the frame of `fixed`
-  std::array<std::int64_t, 4> rotation{};             ///< likewise: w, x, y, z
+  std::array<std::int64_t, 4> rotation{};             ///< of `moving`, in the frame of `fixed`: w, x, y, z
   std::int64_t length = 0;                            ///< of the translation
   double overlap = 0;                                 ///< when assembled; assembly units
   auto operator<=>(const ShapeQuestion&) const = default;

@@ -155,10 +155,10 @@ double StraightMotion::path_length(const GroupState& group, const Subassemblies&
   return std::max(0.0, theirs - ours - shift.dot(d));
 }
 
-bool StraightMotion::follows(Course course, std::size_t direction) const {
+bool StraightMotion::admits(DirectionFilter filter, std::size_t direction) const {
   constexpr double kSteep = 0.7;
   const double upwards = directions_.all[direction].dot(state_.up());
-  return course == Course::any || upwards > (course == Course::up ? kSteep : -kSteep);
+  return filter == DirectionFilter::any || upwards > (filter == DirectionFilter::up ? kSteep : -kSteep);
 }
 
 std::vector<std::size_t> StraightMotion::own_directions(SubassemblyId unit) const {
@@ -294,9 +294,9 @@ void StraightMotion::hint_after_removal(const GroupState& group, const Subassemb
 }
 
 std::optional<std::size_t> StraightMotion::free_direction(const GroupState& group, SubassemblyId unit,
-                                                          std::span<const SubassemblyId> next, Course course) {
+                                                          std::span<const SubassemblyId> next, DirectionFilter filter) {
   std::vector<std::size_t> directions = directions_of(group, unit);
-  std::erase_if(directions, [&](std::size_t d) { return !follows(course, d); });
+  std::erase_if(directions, [&](std::size_t d) { return !admits(filter, d); });
   resolve(group, unit, directions, next);
   if (state_.stop()) return std::nullopt;
   for (const std::size_t d : directions) {

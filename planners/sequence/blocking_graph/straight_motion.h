@@ -18,8 +18,8 @@
 
 namespace dismantle::blocking {
 
-/// Which directions a strategy looks at.
-enum class Course {
+/// Which directions a strategy tries.
+enum class DirectionFilter {
   up,        ///< within 45 degrees of straight up (Objective::up): the reverse puts parts in from above
   not_down,  ///< all but those within 45 degrees of straight down
   any,
@@ -35,7 +35,8 @@ class StraightMotion final : public GroupListener {
 
   /// The free direction with the shortest path, among the first few directions that include a free one.
   std::optional<std::size_t> free_direction(const GroupState& group, SubassemblyId id,
-                                            std::span<const SubassemblyId> next = {}, Course course = Course::any);
+                                            std::span<const SubassemblyId> next = {},
+                                            DirectionFilter filter = DirectionFilter::any);
   /// All free directions that were not refused, in the order of their paths' lengths.
   std::vector<std::size_t> free_directions(const GroupState& group, SubassemblyId id);
   /// All subassemblies that block `id`.
@@ -52,7 +53,7 @@ class StraightMotion final : public GroupListener {
   double length_out(const GroupState& group, const Subassemblies& ids, std::size_t direction,
                     const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
 
-  bool follows(Course course, std::size_t direction) const;
+  bool admits(DirectionFilter filter, std::size_t direction) const;
   /// Directions of `id`, the one with the shortest path out of the group first.
   std::vector<std::size_t> directions_of(const GroupState& group, SubassemblyId id) const;
   const Directions& directions() const { return directions_; }

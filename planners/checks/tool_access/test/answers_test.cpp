@@ -116,25 +116,19 @@ TEST(KnownAnswers, AScrewBehindAWheelThatMustBeTurnedFirst) {
 // Four screws on a square; a cover hides one of them.
 TEST(KnownAnswers, APatternWithAScrewUnderACover) {
   Scene scene;
-  Mesh lid, base;
-  std::vector<PartId> screws;
-  for (const Vector3d& at : {Vector3d(0, 0, 0), Vector3d(30, 0, 0), Vector3d(30, 30, 0), Vector3d(0, 30, 0)}) {
-    screws.push_back(scene.add("s" + std::to_string(screws.size() + 1), screw(), at - Vector3d(0, 0, 10)));
-    lid = shapes::joined(lid, shapes::moved(shapes::tube(1.7, 14, -3, 0, 64), shapes::shift(at)));
-    base = shapes::joined(base, shapes::moved(shapes::tube(1.25, 14, -20, -3, 64), shapes::shift(at)));
-  }
-  const PartId lid_id = scene.add("lid", lid), base_id = scene.add("base", base);
+  const FourScrews pattern(scene);
   const PartId cover = scene.add("cover", shapes::box({-12, -12, 6}, {12, 12, 9}));
   everywhere(scene, [&](const Assembly& assembly, const Vector3d& down) {
-    for (std::size_t i = 0; i < screws.size(); ++i) {
-      const StepVerdict v = judge(ToolAccess(), assembly, {screws[i]}, {lid_id, base_id, cover}, down);
+    for (std::size_t i = 0; i < pattern.screws.size(); ++i) {
+      const StepVerdict v =
+          judge(ToolAccess(), assembly, {pattern.screws[i]}, {pattern.lid, pattern.base, cover}, down);
       EXPECT_EQ(v.cost, i == 0 ? 1 : 0) << i;
       const json data = json::parse(v.notes.at(0).data);
       EXPECT_EQ(data.value("in_the_way", none), i == 0 ? json::array({"cover"}) : none);
       EXPECT_EQ(v.notes.back().kind, "tool_access.pattern");
       EXPECT_NE(v.notes.back().text.find("'s1', 's3', 's2' and 's4'"), std::string::npos) << v.notes.back().text;
     }
-    EXPECT_EQ(judge(ToolAccess(), assembly, {screws[0]}, {lid_id, base_id}, down).cost, 0);
+    EXPECT_EQ(judge(ToolAccess(), assembly, {pattern.screws[0]}, {pattern.lid, pattern.base}, down).cost, 0);
   });
 }
 

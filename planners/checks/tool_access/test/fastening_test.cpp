@@ -113,24 +113,19 @@ TEST(ToolAccess, AScrewComesAfterWhatItClamps) {
 // The first of four equal screws says how they are tightened, the others do not.
 TEST(ToolAccess, APatternIsTightenedCrosswise) {
   Scene s;
-  Mesh lid, base;
-  std::vector<PartId> screws;
-  for (const Vector3d& at : {Vector3d(0, 0, 0), Vector3d(30, 0, 0), Vector3d(30, 30, 0), Vector3d(0, 30, 0)}) {
-    screws.push_back(s.add("s" + std::to_string(screws.size() + 1), screw(), at - Vector3d(0, 0, 10)));
-    lid = shapes::joined(lid, shapes::moved(shapes::tube(1.7, 14, -3, 0, 64), shapes::shift(at)));
-    base = shapes::joined(base, shapes::moved(shapes::tube(1.25, 14, -20, -3, 64), shapes::shift(at)));
-  }
-  const PartId lid_id = s.add("lid", lid), base_id = s.add("base", base);
+  const FourScrews pattern(s);
   const Assembly assembly = s.assembly();
   const Vector3d down = -Vector3d::UnitZ();
-  const StepVerdict first = judge(ToolAccess(), assembly, {screws[2]}, {lid_id, base_id}, down);
+  const StepVerdict first = judge(ToolAccess(), assembly, {pattern.screws[2]}, {pattern.lid, pattern.base}, down);
   ASSERT_EQ(first.notes.size(), 2u);
   EXPECT_EQ(first.notes[1].kind, "tool_access.pattern");
   EXPECT_EQ(first.notes[1].text,
             "4 equal screws (M3x10) clamp 'lid': put all of them in by hand first, then tighten them in cross order: "
             "'s1', 's3', 's2' and 's4'.");
-  EXPECT_EQ(judge(ToolAccess(), assembly, {screws[0]}, {lid_id, base_id, screws[2]}, down).notes.size(), 1u);
-  EXPECT_EQ(judge(ToolAccess(), assembly, screws, {lid_id, base_id}, down).notes.size(), 5u);
+  EXPECT_EQ(judge(ToolAccess(), assembly, {pattern.screws[0]}, {pattern.lid, pattern.base, pattern.screws[2]}, down)
+                .notes.size(),
+            1u);
+  EXPECT_EQ(judge(ToolAccess(), assembly, pattern.screws, {pattern.lid, pattern.base}, down).notes.size(), 5u);
 }
 
 /// The parts overlap by this depth in mm, all around.

@@ -49,6 +49,23 @@ inline Mesh wall(double radius, double high) {
                               96);
 }
 
+/// Four screws s1 to s4 at the corners of a square, a lid that they clamp, and the base that they are driven into.
+struct FourScrews {
+  explicit FourScrews(Scene& scene) {
+    Mesh whole_lid, whole_base;
+    for (const Vector3d& at : {Vector3d(0, 0, 0), Vector3d(30, 0, 0), Vector3d(30, 30, 0), Vector3d(0, 30, 0)}) {
+      screws.push_back(scene.add("s" + std::to_string(screws.size() + 1), screw(), at - Vector3d(0, 0, 10)));
+      const auto place = [&](const Mesh& tube) { return shapes::moved(tube, shapes::shift(at)); };
+      whole_lid = shapes::joined(whole_lid, place(shapes::tube(1.7, 14, -3, 0, 64)));
+      whole_base = shapes::joined(whole_base, place(shapes::tube(1.25, 14, -20, -3, 64)));
+    }
+    lid = scene.add("lid", whole_lid);
+    base = scene.add("base", whole_base);
+  }
+  std::vector<PartId> screws;
+  PartId lid = 0, base = 0;
+};
+
 inline StepVerdict judge(const ToolAccess& check, const Assembly& assembly, const std::vector<PartId>& moving,
                          const std::vector<PartId>& present, const Vector3d& direction,
                          const StepQuestion* previous = nullptr) {

@@ -32,7 +32,7 @@ std::vector<FreeGroup::Candidate> FreeGroup::candidates(const GroupState& group)
       const Candidate own = candidate(std::move(ids), d);
       const bool own_first = own.parts <= rest.parts;
       for (const Candidate& c : {own_first ? own : rest, own_first ? rest : own})
-        if (straight_.follows(course_, c.direction) && state_.may_leave(group, c.ids)) {
+        if (straight_.admits(filter_, c.direction) && state_.may_leave(group, c.ids)) {
           found.push_back(c);
           break;
         }

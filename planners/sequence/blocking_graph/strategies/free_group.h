@@ -10,8 +10,9 @@ namespace dismantle::blocking {
 class FreeGroup final : public Strategy {
  public:
   /// `proposals`: groups that are proposed to the verifier before other strategies are tried.
-  FreeGroup(DisassemblyState& state, StraightMotion& straight, unsigned proposals, Course course = Course::any)
-      : state_(state), straight_(straight), proposals_(proposals), course_(course) {}
+  FreeGroup(DisassemblyState& state, StraightMotion& straight, unsigned proposals,
+            DirectionFilter filter = DirectionFilter::any)
+      : state_(state), straight_(straight), proposals_(proposals), filter_(filter) {}
   std::string_view name() const noexcept override { return "free_group"; }
   Cost cost() const noexcept override { return Cost::pair_sweeps; }
   Result apply(GroupState& group) override;
@@ -28,7 +29,7 @@ class FreeGroup final : public Strategy {
   DisassemblyState& state_;
   StraightMotion& straight_;
   unsigned proposals_;
-  Course course_;
+  DirectionFilter filter_;
   PerGroup<bool> done_;
 };
 

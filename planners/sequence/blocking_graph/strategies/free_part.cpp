@@ -11,7 +11,7 @@ Result FreePart::apply(GroupState& group) {
   const Subassemblies ids = group.members;
   for (std::size_t k = 0; k < ids.size() && !state_.stop(); ++k) {
     if (!state_.may_leave(group, {ids[k]})) continue;
-    while (const auto d = straight_.free_direction(group, ids[k], std::span(ids).subspan(k + 1), course_))
+    while (const auto d = straight_.free_direction(group, ids[k], std::span(ids).subspan(k + 1), filter_))
       if (straight_.leave(group, {ids[k]}, *d)) return Result::restart;
   }
   return Result::unchanged;
@@ -24,7 +24,7 @@ Result FreePart::apply_preferred(GroupState& group) {
   for (const SubassemblyId id : group.members) {
     if (!state_.may_leave(group, {id})) continue;
     for (const std::size_t d : straight_.free_directions(group, id)) {
-      if (!straight_.follows(course_, d)) continue;
+      if (!straight_.admits(filter_, d)) continue;
       free.emplace_back(id, d);
       candidates.push_back(state_.candidate(group, {id}, straight_.directions().all[d]));
     }

@@ -8,8 +8,8 @@ namespace dismantle::blocking {
 
 class FreePart final : public Strategy {
  public:
-  FreePart(DisassemblyState& state, StraightMotion& straight, Course course = Course::any)
-      : state_(state), straight_(straight), course_(course) {}
+  FreePart(DisassemblyState& state, StraightMotion& straight, DirectionFilter filter = DirectionFilter::any)
+      : state_(state), straight_(straight), filter_(filter) {}
   std::string_view name() const noexcept override { return "free_part"; }
   Cost cost() const noexcept override { return Cost::pair_sweeps; }
   Result apply(GroupState& group) override;
@@ -19,7 +19,7 @@ class FreePart final : public Strategy {
 
   DisassemblyState& state_;
   StraightMotion& straight_;
-  Course course_;
+  DirectionFilter filter_;
 };
 
 }  // namespace dismantle::blocking

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -65,6 +67,54 @@ TEST(Relations, AreTheSameWhoeverHelps) {
         }
       }
   }
+}
+
+/// Copies of a few angular shapes, at random poses: half of the poses are turned by quarters.
+Assembly copies_of_shapes(Rng& rng, std::size_t count) {
+  std::vector<std::pair<std::string, std::vector<fake::Box>>> parts;
+  for (std::size_t k = 0; k < count; ++k)
+    parts.push_back(
+        {"part" + std::to_string(k), {{{0, 0, 0}, {2, 1, 1}}, {{0, 1.01, 0}, {1, k % 2 == 0 ? 2.0 : 3.0, 1}}}});
+  Assembly assembly = fake::assembly_of(parts);
+  for (Part& part : assembly.parts) {
+    Pose pose{{2.5 * std::floor(rng.uniform(0, 3)), 2.5 * std::floor(rng.uniform(0, 3)), rng.uniform(0, 9)}, {}};
+    const double quarter = std::numbers::pi / 2;
+    const double angle = part.id % 2 == 0 ? quarter * static_cast<double>(rng.below(4)) : rng.uniform(0, 6);
+    pose.q = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ());
+    Mesh mesh = *part.mesh;
+    for (auto& v : mesh.vertices) v = pose * v;
+    part.mesh = part.surface = std::make_shared<const Mesh>(mesh);
+  }
+  return assembly;
+}
+
+TEST(Relations, OfEqualPartsAreThoseOfThePartsThemselves) {
+  Rng rng(11);
+  std::size_t compared = 0, blocked = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    const Assembly assembly = copies_of_shapes(rng, 8);
+    TolerantOracle oracle;
+    const PairSweep sweep(assembly, oracle);
+    EXPECT_EQ(sweep.shape(2).original, 0u);
+    EXPECT_EQ(sweep.shape(7).original, 1u);
+    const Directions directions = directions_of(assembly);
+    const Orientations orientations;
+    Relations relations(sweep, directions, orientations, nullptr);
+    for (PartId a = 0; a < assembly.parts.size(); ++a)
+      for (PartId b = 0; b < assembly.parts.size(); ++b)
+        for (std::size_t d = 0; a != b && d < directions.all.size(); ++d) {
+          const Pair pair{a, b, d, Eigen::Vector3d::Zero(), 0, 0};
+          if (relations.far(pair)) continue;
+          const Eigen::Vector3d out = (relations.distance_past(pair) + 0.001) * directions.all[d];
+          const bool blocks = !sweep.passes(a, b, Pose{}, {Pose{}, Pose{out, Eigen::Quaterniond::Identity()}});
+          EXPECT_EQ(relations.blocks(pair), blocks) << trial << ": " << a << " past " << b << ", direction " << d;
+          ++compared;
+          blocked += blocks ? 1 : 0;
+        }
+  }
+  EXPECT_GT(compared, 500u);
+  EXPECT_GT(blocked, 100u);
+  EXPECT_LT(blocked, compared);
 }
 
 }  // namespace

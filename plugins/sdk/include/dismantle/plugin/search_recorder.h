@@ -1,5 +1,5 @@
-/// What a search for a path has reached, for whoever wants to see it: the nodes of its tree, and how far the best one
-/// is. A planner that records costs nothing where nobody listens.
+/// Records the progress of a search for a path: the nodes of its tree, and how far the best one is. Without a listener
+/// nothing is recorded, and a call costs a test of a pointer.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace dismantle {
 
-/// Who listens. Called from several threads.
+/// Receives what is recorded. Called from several threads.
 class SearchListener {
  public:
   virtual ~SearchListener() = default;
@@ -43,7 +43,7 @@ class SearchRecord {
     restart();
   }
 
-  /// False: nobody listens, node() does nothing, and its arguments need not be computed.
+  /// False: there is no listener, node() does nothing, and its arguments need not be computed.
   bool listens() const { return listener_ != nullptr; }
   /// As SearchListener::node(): nodes are numbered from 0, in the order of these calls.
   void node(std::ptrdiff_t parent, const std::vector<Pose>& poses, double effort, double way) {
