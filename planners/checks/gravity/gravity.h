@@ -24,7 +24,7 @@ struct GravityParams {
   std::int64_t hands = 2;
   double friction = 0.4;
   std::string density{};
-  std::int64_t most_parts = 400;
+  std::int64_t most_parts = 150;
   static void describe(Schema<GravityParams>& schema);
 };
 
