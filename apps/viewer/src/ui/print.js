@@ -18,6 +18,7 @@ export function printStep(app) {
     window.print();
     sheet.remove();
   };
-  if (image) image.decode().then(show, show);
-  else show();
+  // Not decode(): a browser that draws no frame, as behind other windows, never answers it.
+  if (!image || image.complete) show();
+  else image.onload = image.onerror = show;
 }

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {mkdtempSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
-import test, {after, before} from 'node:test';
+import nodeTest, {after, before} from 'node:test';
 import {distance, placed, randomNumbers} from '../cases.mjs';
 import {CHROMIUM, hasChromium, launch, open} from './chromium.mjs';
 import {changed, changedPlan, explained, planBoxes, planSample} from './plans.mjs';
@@ -28,6 +28,9 @@ after(async () => {
   await browser?.close();
   rmSync(folder, {recursive: true});
 });
+
+/** A test that hangs fails by its name, and the others go on. */
+const test = (title, body) => nodeTest(title, {timeout: 240_000}, body);
 
 /** A test with a page that must cause no console errors and load nothing but itself. */
 function onPage(title, file, body, options) {
@@ -408,14 +411,14 @@ onPage('the camera follows the step if asked to', () => shelf.file, async page =
 
 onPage('the print of a step has its picture and its words, and nothing else', () => shelf.file, async page => {
   await page.evaluate('window.dismantle.seek(window.dismantle.timeOf("disassembly", 1, 0))');
-  const printed = page.evaluate(() => new Promise(done => {
+  await page.evaluate(() => {
     window.print = () => {
       const sheet = document.querySelector('.sheet'), image = sheet.querySelector('img');
-      done({title: sheet.querySelector('h1').textContent, width: image.naturalWidth, others: document.querySelectorAll('.sheet').length});
+      window.printed = {title: sheet.querySelector('h1').textContent, width: image.naturalWidth};
     };
-  }));
+  });
   await page.keyboard.press('p');
-  const {title, width} = await printed;
+  const {title, width} = await (await page.waitForFunction('window.printed')).jsonValue();
   assert.match(title, new RegExp(`^Step 2 of ${shelf.plan.disassembly.length}: ${shelf.plan.disassembly[1].moves[0].part}`));
   assert.ok(width > 100);
   assert.equal(await page.locator('.sheet').count(), 0, 'it is gone afterwards');
