@@ -35,9 +35,14 @@ Balance associated(Springs& springs, const std::function<bool()>& stop) {
   return result_of(springs, anchor, false);
 }
 
+bool passes(const Pile& pile, const Balance& by) {
+  return by.balanced && check_equilibrium(pile, by.forces).empty() &&
+         check_created(pile, by.forces, by.displacement).empty();
+}
+
 Balance coulomb(Springs& springs, const std::function<bool()>& stop) {
   Eigen::VectorXd anchor = springs.at();
-  double best = 1e300, share = 1;
+  double best = 1e300, share = 1, enough = kBalanced;
   int since = 0;
   for (int k = 0; k < 200; ++k) {
     anchor = springs.at();
@@ -46,9 +51,12 @@ Balance coulomb(Springs& springs, const std::function<bool()>& stop) {
     if (stop && stop()) break;
     const double residual = springs.residual(anchor), change = springs.update_limits(share);
     const double worst = std::max(residual, change);
-    if (worst < kBalanced) {
+    if (worst < enough) {
+      if (springs.solve_coupled(stop)) return result_of(springs, springs.at(), true);
       springs.update_limits();
-      return result_of(springs, anchor, true);
+      Balance found = result_of(springs, anchor, true);
+      if (worst < 1e-3 * kBalanced || passes(springs.pile(), found)) return found;
+      enough = 0.3 * worst;
     }
     if (k % 4 == 2 && springs.solve_coupled(stop)) return result_of(springs, springs.at(), true);
     // Long chains give way far: the proximal term alone holds them back.
@@ -67,25 +75,30 @@ Balance coulomb(Springs& springs, const std::function<bool()>& stop) {
 
 }  // namespace
 
-Balance balance(const Pile& pile, FrictionLaw law, const std::function<bool()>& stop) {
+Balance balance(const Pile& pile, FrictionLaw law, const std::function<bool()>& stop, const Motions& near) {
   Springs springs(pile, law);
   if (springs.size() == 0) return result_of(springs, springs.at(), true);
-  if (law == FrictionLaw::associated) return associated(springs, stop);
+  if (law == FrictionLaw::associated) {
+    if (!near.empty()) springs.start_at(springs.point_of(near));
+    return associated(springs, stop);
+  }
+  if (!near.empty()) {
+    Springs nearby(pile, law);
+    nearby.start_at(nearby.point_of(near));
+    if (nearby.solve_coupled(stop))
+      if (Balance warm = result_of(nearby, nearby.at(), true); passes(pile, warm)) return warm;
+  }
   Balance found = coulomb(springs, stop);
-  const auto passes = [&](const Balance& by) {
-    return by.balanced && check_equilibrium(pile, by.forces).empty() &&
-           check_created(pile, by.forces, by.displacement).empty();
-  };
-  if (!springs.is_long() || passes(found) || (stop && stop())) return found;
+  if (!springs.is_long() || passes(pile, found) || (stop && stop())) return found;
   // A long chain gives way far: once more from the displacement of the associated law, which lies nearer.
   Springs any(pile, FrictionLaw::associated);
   if (!associated(any, stop).balanced) return found;
   Springs again(pile, law);
   again.start_at(any.at());
   if (again.solve_coupled(stop))
-    if (Balance second = result_of(again, again.at(), true); passes(second)) return second;
+    if (Balance second = result_of(again, again.at(), true); passes(pile, second)) return second;
   Balance second = coulomb(again, stop);
-  return passes(second) ? second : found;
+  return passes(pile, second) ? second : found;
 }
 
 }  // namespace dismantle::statics

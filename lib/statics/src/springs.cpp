@@ -349,6 +349,16 @@ Motions Springs::motion_of(const VectorXd& x) const {
   return motion;
 }
 
+VectorXd Springs::point_of(const Motions& motion) const {
+  VectorXd x(size());
+  for (std::size_t i = 0; i < first_.size(); ++i)
+    if (first_[i] >= 0) {
+      x.segment<3>(first_[i]) = motion[i].v / scale_[first_[i]];
+      x.segment<3>(first_[i] + 3) = motion[i].w / scale_[first_[i] + 3];
+    }
+  return x;
+}
+
 ContactForces Springs::forces() const {
   ContactForces forces;
   for (const Contact& c : pile_.contacts) forces.emplace_back(c.points.size(), Vec3::Zero());

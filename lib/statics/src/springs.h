@@ -24,7 +24,7 @@ class Springs {
 
   /// Minimizes from the current point with the proximal term about `anchor`; false: Newton's method did not converge.
   bool minimize(const Eigen::VectorXd& anchor, const std::function<bool()>& stop);
-  /// Coulomb: begins at `x`, with the limits of friction of the pressure there.
+  /// Begins at `x`; Coulomb: with the limits of friction of the pressure there.
   void start_at(const Eigen::VectorXd& x);
   /// Coulomb: with this many bodies, a pile gives way by more than a single contact does.
   bool is_long() const { return proximal_least_ < kProximal; }
@@ -44,6 +44,7 @@ class Springs {
   /// Largest unbalanced share of a weight for the step from `anchor`.
   double residual(const Eigen::VectorXd& anchor) const;
   Motions motion_of(const Eigen::VectorXd& x) const;
+  Eigen::VectorXd point_of(const Motions& motion) const;  ///< the inverse of motion_of()
   ContactForces forces() const;  ///< in the units of the pile
   Eigen::Index size() const { return load_.size(); }
   unsigned factorizations() const { return factorizations_; }

@@ -31,8 +31,8 @@ Judgement judge_forces(const Pile& pile, const std::function<bool()>& stop) {
   return {};
 }
 
-Judgement judge(const Pile& pile, const std::function<bool()>& stop) {
-  Balance any = balance(pile, FrictionLaw::associated, stop);
+Judgement judge(const Pile& pile, const std::function<bool()>& stop, const Motions& near) {
+  Balance any = balance(pile, FrictionLaw::associated, stop, near);
   if (!any.balanced && check_fall(pile, any.falling).empty()) return {Verdict::falls, {}, {}, std::move(any.falling)};
   const auto stands = [&](Balance& by) -> std::optional<Judgement> {
     if (!by.balanced || !check_equilibrium(pile, by.forces).empty() ||
@@ -42,7 +42,7 @@ Judgement judge(const Pile& pile, const std::function<bool()>& stop) {
   };
   // Where nothing slides, or slides on what presses, the associated law is Coulomb's.
   if (auto judged = stands(any)) return std::move(*judged);
-  Balance created = balance(pile, FrictionLaw::coulomb, stop);
+  Balance created = balance(pile, FrictionLaw::coulomb, stop, near);
   if (auto judged = stands(created)) return std::move(*judged);
   if (any.balanced && !created.balanced && check_equilibrium(pile, any.forces).empty() && !(stop && stop()))
     return {Verdict::pressed_in, std::move(any.forces), {}, std::move(created.falling)};

@@ -28,7 +28,9 @@ struct Balance {
   unsigned factorizations = 0;
 };
 
-/// Looks for a balance. `stop`: asked between programs; true gives up.
-DISMANTLE_API Balance balance(const Pile& pile, FrictionLaw law, const std::function<bool()>& stop = {});
+/// Looks for a balance. `stop`: asked between programs; true gives up. `near`: displacement of a similar load on the
+/// same bodies, from which the search starts; empty: it starts where nothing is displaced.
+DISMANTLE_API Balance balance(const Pile& pile, FrictionLaw law, const std::function<bool()>& stop = {},
+                              const Motions& near = {});
 
 }  // namespace dismantle::statics

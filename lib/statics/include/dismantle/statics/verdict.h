@@ -29,8 +29,8 @@ struct Judgement {
 };
 
 /// Judges a pile; every certificate has been checked by check_equilibrium(), check_created() or check_fall().
-/// A pile without anything that can move stands.
-DISMANTLE_API Judgement judge(const Pile& pile, const std::function<bool()>& stop = {});
+/// A pile without anything that can move stands. `near`: as for balance().
+DISMANTLE_API Judgement judge(const Pile& pile, const std::function<bool()>& stop = {}, const Motions& near = {});
 
 /// The same for forces alone: `stands` means that forces in equilibrium exist, whatever creates them. Some ten times
 /// faster. The certificates are `forces` and `motion`; `displacement` gives the forces by spring_forces().
