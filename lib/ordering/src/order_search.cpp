@@ -239,15 +239,15 @@ double ahead(Problem& problem, const Task& task, const Node& node) {
 }  // namespace
 
 Order beam(Problem& problem, const Task& task, Effort& effort) {
-  const std::uint64_t steps = std::max<std::uint64_t>(1, task.start.size());
-  const std::uint64_t each = std::max<std::uint64_t>(1, effort.left / (2 * steps));
-  const std::size_t most = static_cast<std::size_t>(std::clamp<std::uint64_t>(each / 4, 4, 48));
-  const std::size_t width = static_cast<std::size_t>(std::clamp<std::uint64_t>(each / most, 1, 64));
   std::vector<Node> nodes{{task.start, task.last, 0, 0}};
   std::map<std::size_t, std::vector<std::size_t>, std::greater<>> layers{{task.start.size(), {0}}};
   Order best;
   while (!layers.empty()) {
     const std::vector<std::size_t> layer = std::move(layers.begin()->second);
+    // What is left of the effort is divided among the layers to come: in each, `width` nodes with `most` successors.
+    const std::uint64_t each = effort.left / std::max<std::uint64_t>(1, layers.begin()->first);
+    const std::uint64_t most = std::clamp<std::uint64_t>(each / 8, 4, 48);
+    const std::size_t width = static_cast<std::size_t>(std::clamp<std::uint64_t>(each / (2 * most + kAhead), 1, 64));
     layers.erase(layers.begin());
     std::unordered_map<Key, std::size_t, KeyHash> seen;
     std::vector<Candidate> found;

@@ -206,5 +206,14 @@ TEST(OrderSearch, TheBeamOpensARingInOnePlace) {
   }
 }
 
+TEST(OrderSearch, TheBeamEndsWithAnOrderWhateverTheEffort) {
+  for (const std::size_t units : {9u, 40u, 75u})
+    for (const std::uint64_t each : {20u, 57u, 101u, 343u, 900u}) {
+      Ring problem(units);
+      Effort effort{each * units};
+      EXPECT_LT(beam(problem, whole(problem), effort).cost, kForbidden) << units << " " << each;
+    }
+}
+
 }  // namespace
 }  // namespace dismantle::order

@@ -23,7 +23,8 @@ using Vec3 = Eigen::Vector3d;
 using statics::Gaps;
 using statics::joined;
 
-constexpr double kSameUp = 1e-9;  // 1 - cosine
+constexpr double kSameUp = 1e-9;    // 1 - cosine
+constexpr double kFixtureHand = 2;  // what a hand that is not there costs more
 
 std::string quoted(const Assembly& assembly, PartId part) { return "'" + assembly.parts[part].name + "'"; }
 
@@ -219,6 +220,9 @@ StepVerdict Gravity::judge(const StepQuestion& question, const RunContext& conte
   const bool unclear = !after.found || !during.found || !turned.found;
   const std::size_t hands = std::max({after.holds.size(), 1 + during.holds.size(), 1 + turning});
   const bool too_many = unclear || hands > static_cast<std::size_t>(params_.hands);
+  // A fixture costs more than a hand that is there: rather three steps with one more hold each than one with three.
+  if (hands > static_cast<std::size_t>(params_.hands))
+    verdict.cost += kFixtureHand * static_cast<double>(hands - static_cast<std::size_t>(params_.hands));
   if (holds.empty() && !unclear) return verdict;
   std::vector<std::string> texts;
   for (const Hold& h : after.holds)

@@ -10,7 +10,7 @@ namespace dismantle {
 
 struct BestOrderParams {
   PluginRef<SequencePlanner> of;
-  double effort = 30000;
+  double effort = 60000;
   static void describe(Schema<BestOrderParams>& schema);
 };
 

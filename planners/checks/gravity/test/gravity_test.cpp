@@ -151,10 +151,12 @@ TEST(Gravity, TooFewHandsAreARefusal) {
   const Scene scene(
       {block(0, 0, 0, 2, 2, 1), block(5, 0, 3, 1, 1, 1), block(-5, 0, 3, 1, 1, 1), block(0, 5, 3, 1, 1, 1)});
   const StepVerdict verdict = Gravity().judge(scene.question(), RunContext{});
-  EXPECT_EQ(verdict.cost, 3);
+  EXPECT_EQ(verdict.cost, 3 + 2) << "three to hold, one more than there are hands";
   EXPECT_FALSE(verdict.allowed);
   EXPECT_NE(verdict.notes.at(0).text.find("fixture"), std::string::npos);
-  EXPECT_TRUE(Gravity({.hands = 3}).judge(scene.question(), RunContext{}).allowed);
+  const StepVerdict enough = Gravity({.hands = 3}).judge(scene.question(), RunContext{});
+  EXPECT_TRUE(enough.allowed);
+  EXPECT_EQ(enough.cost, 3);
 }
 
 TEST(Gravity, AFixtureHoldsWhatItIsToldTo) {
