@@ -5,7 +5,7 @@ set(DISMANTLE_SHIPPED_PLUGINS
   plugins/importers/ldraw plugins/importers/mesh_files plugins/importers/step
   simulators/fcl simulators/sdf_penalty simulators/sdf_velocity
   planners/path/bfs planners/path/bk_rrt planners/path/contact_search planners/path/mv_t_rrt
-  planners/path/navigation_tree planners/path/portfolio planners/path/prm planners/path/rrt planners/path/rrt_connect_removal
+  planners/path/portfolio planners/path/prm planners/path/rrt planners/path/rrt_connect_removal
   planners/path/t_rrt planners/path/tolerant_rrt planners/path/tunnel_forest
   planners/sequence/best_order planners/sequence/blocking planners/sequence/chain planners/sequence/least_cut planners/sequence/mcts planners/sequence/ndbg planners/sequence/progressive planners/sequence/queue planners/sequence/random
   planners/sequence/state_based
@@ -30,7 +30,7 @@ endif()
 # its path planner `guided` is made of. (Plugins that are not there are left out of the defaults, so a list that lacks one would
 # change plans without an error.)
 set(DISMANTLE_DEFAULT_PLUGINS plugins/importers/mesh_files
-  planners/path/portfolio planners/path/contact_search planners/path/navigation_tree planners/path/tolerant_rrt planners/path/tunnel_forest)
+  planners/path/portfolio planners/path/contact_search planners/path/tolerant_rrt planners/path/tunnel_forest)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/configs/default.yaml")
 file(STRINGS "${PROJECT_SOURCE_DIR}/configs/default.yaml" lines REGEX "^[^#]*type:")
 foreach(line IN LISTS lines)

@@ -89,6 +89,20 @@ TEST_F(Config, WhatIsWrongWithProvers) {
   expect("[ring]", {"immobility must be a map of keys, not a list"});
 }
 
+/// Types and keys that are no more: the message says what to write instead.
+TEST_F(Config, RemovedNames) {
+  const auto expect = [&](const std::string& planner, const std::string& said) {
+    const std::string errors = errors_of("schema: 1\npath_planner: " + planner + "\n");
+    EXPECT_NE(errors.find(said), std::string::npos) << errors;
+  };
+  expect("{type: navigation_tree}",
+         "run.yaml:2:22: error: unknown path_planner 'navigation_tree'; it was removed: leave it out of the list, or "
+         "write 'guided'");
+  expect("{type: t_rrt, overlap_reach: 3}",
+         "run.yaml:2:29: error: unknown key 'overlap_reach' in path_planner (t_rrt); it was removed with "
+         "navigation_tree: delete it");
+}
+
 TEST_F(Config, TheObjectiveIsAListOfChecksWithWeights) {
   using Ids = std::vector<std::string>;
   EXPECT_EQ(ids_of(load_config({}, registry_).objective), Ids{"directions"}) << "those of the default that are there";

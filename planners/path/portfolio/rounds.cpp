@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "dismantle/free_space/navigation_search.h"
+#include "thin_groups.h"
 
 namespace dismantle::portfolio {
 
 Rounds::Rounds(Members& members, const Parameters& parameters)
     : members_(members), parameters_(parameters), turn_(static_cast<std::uint64_t>(parameters.turn)) {
   short_round_ = members.order().size() > 1 && parameters.overlap_turn > 0 &&
-                 parameters.overlap_turn < parameters.turn && free_space::thinner_than_overlap(members.query());
+                 parameters.overlap_turn < parameters.turn && thinner_than_overlap(members.query());
 }
 
 /// A round with a short turn of the first member is followed by a full round of the same length.

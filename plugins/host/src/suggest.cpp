@@ -38,4 +38,11 @@ std::optional<std::string> nearest(const std::string& word, const std::vector<st
   return best;
 }
 
+std::string advice_for_removed(const std::string& name) {
+  if (name == "navigation_tree")
+    return "it was removed: leave it out of the list, or write 'guided', which finds the same paths";
+  if (name == "overlap_reach") return "it was removed with navigation_tree: delete it";
+  return "";
+}
+
 }  // namespace dismantle

@@ -14,7 +14,7 @@ using path::test::Table;
 
 /// The preset without the other trees, because these sometimes solve the assembly as well.
 ParamSet forest(std::int64_t after, std::int64_t steps) {
-  std::vector<std::string> without{"navigation_tree", "tolerant_rrt"};
+  std::vector<std::string> without{"tolerant_rrt"};
   if (steps == 0) without.emplace_back("tunnel_forest");
   return path::test::guided({{"turn", after}, {"tunnel_forest.after", after}, {"tunnel_forest.max_steps", steps}},
                             without);

@@ -136,10 +136,6 @@ std::size_t DistanceField::bytes() const {
   return coarse_.bytes() + fine_.bytes() + bvh_.nodes().size() * (sizeof(TriangleBvh::Node) + sizeof(Triangle));
 }
 
-double DistanceField::measured(const Eigen::Vector3d& p) const {
-  return measured(p, 0, std::numeric_limits<double>::infinity());
-}
-
 double DistanceField::at(const Eigen::Vector3d& p) {
   const double outside = around_.squared_distance(p);
   if (outside > 0) return resolution_.band() + std::sqrt(outside);

@@ -2,17 +2,19 @@
 
 #include <utility>
 
-#include "dismantle/shared_object.h"
-
 namespace dismantle::tolerant_walk {
 
 std::shared_ptr<GeometryCache> GeometryCache::shared() {
-  return std::static_pointer_cast<GeometryCache>(
-      shared_object("dismantle.tolerant_walk.GeometryCache", [] { return std::make_shared<GeometryCache>(); }));
+  static std::mutex mutex;
+  static std::weak_ptr<GeometryCache> known;
+  const std::scoped_lock lock(mutex);
+  std::shared_ptr<GeometryCache> cache = known.lock();
+  if (cache == nullptr) known = cache = std::make_shared<GeometryCache>();
+  return cache;
 }
 
 GeometryCache::Pair::Pair(const Mesh& of, const Mesh& other, const Pose& place, const Sampling& sampling,
-                          const Allowance& allowance, double reach)
+                          const Allowance& allowance)
     : meshes_{&of, &other},
       numbers_{place.q.w(),
                place.q.x(),
@@ -24,12 +26,10 @@ GeometryCache::Pair::Pair(const Mesh& of, const Mesh& other, const Pose& place, 
                sampling.resolution.cell,
                static_cast<double>(sampling.max_samples),
                allowance.overlap,
-               allowance.tolerance,
-               reach},
-      exact_(allowance.exact) {}
+               allowance.tolerance} {}
 
 GeometryCache::Pair::Pair(const Mesh& of, const Sampling& sampling, const Allowance& allowance)
-    : Pair(of, of, Pose{}, sampling, allowance, 0) {
+    : Pair(of, of, Pose{}, sampling, allowance) {
   meshes_[1] = nullptr;
 }
 

@@ -14,16 +14,15 @@
 namespace dismantle::tolerant_walk {
 
 PoseTree::PoseTree(const TreeParameters& parameters, const PathQuery& query, RunContext& context, Rng& rng,
-                   Overlap overlap, GeometryCache& cache)
+                   GeometryCache& cache)
     : parameters_(parameters),
       query_(query),
       context_(context),
       rng_(rng),
       deadline_(path::deadline_of(query, context)),
       world_(query.simulator.world(query.assembly, query.prepared, query.scene, MotionSpace::rigid)),
-      validity_(query.assembly, query.scene, parameters.tolerance_share * query.tolerance, overlap, cache,
-                {{parameters.field_cell * query.tolerance}, static_cast<std::size_t>(parameters.max_samples)},
-                parameters.overlap_reach) {
+      validity_(query.assembly, query.scene, parameters.tolerance_share * query.tolerance, cache,
+                {{parameters.field_cell * query.tolerance}, static_cast<std::size_t>(parameters.max_samples)}) {
   const std::size_t count = query.scene.moving.size();
   bodies_ = path::balls_of(*world_);
   for (std::size_t i = 0; i < count; ++i)
@@ -35,7 +34,7 @@ PoseTree::PoseTree(const TreeParameters& parameters, const PathQuery& query, Run
 
 bool PoseTree::SearchTreeState::obstacles_removed(const Scene& scene, double share) const {
   std::uint64_t all = 0, gone = 0;
-  for (const auto& [part, count] : blocked_since_progress) {
+  for (const auto& [part, count] : blocked) {
     all += count;
     if (!path::contains(scene.fixed, part)) gone += count;
   }
@@ -69,7 +68,7 @@ std::shared_ptr<const PoseTree::SearchTreeState> PoseTree::search_state() const 
   state->nodes = nodes_;
   state->refused_places = refused_places_;
   state->touched = touched_;
-  state->blocked_since_progress = blocked_since_progress_;
+  state->blocked = blocked_;
   state->state_checks = spared_ + state_checks_;
   return state;
 }
@@ -97,7 +96,7 @@ bool PoseTree::state_valid(const Pose& displacement) {
   ++state_checks_;
   if (validity_.is_valid(displacement)) return true;
   ++touched_[*validity_.obstacle()];
-  ++blocked_since_progress_[*validity_.obstacle()];
+  ++blocked_[*validity_.obstacle()];
   return false;
 }
 
@@ -169,7 +168,6 @@ bool PoseTree::find_verified_path(std::uint32_t node, PathResult& result) {
   for (const std::uint32_t n : branch) waypoints.push_back(nodes_[n].pose);
   Pose at_fault = waypoints.back();
   std::optional<PartId> by;
-  bool tightened = false;
   const auto form = [&](std::size_t round) -> std::optional<Path> {
     if (round > static_cast<std::size_t>(parameters_.repairs) || halted() || given_up()) return std::nullopt;
     shortened_waypoints = shortened(waypoints);
@@ -182,19 +180,16 @@ bool PoseTree::find_verified_path(std::uint32_t node, PathResult& result) {
     by = path::contains(query_.scene.fixed, check.other) ? check.other : check.part;
     at_fault = instant[0] * query_.scene.moving[0].pose.inverse();
     refused_places_.push_back({check.part, check.other, check.point, at_fault});
-    tightened = validity_.add_contact_sample(check.part, check.other, check.point, at_fault);
+    validity_.add_contact_sample(check.part, check.other, check.point, at_fault);
     // The new samples may invalidate waypoints of the branch itself.
-    return !tightened && std::all_of(waypoints.begin() + 1, waypoints.end(),
-                                     [&](const Pose& p) { return halted() || state_valid(p); });
+    return std::all_of(waypoints.begin() + 1, waypoints.end(),
+                       [&](const Pose& p) { return halted() || state_valid(p); });
   };
   const auto accept = [&](VerifiedPath path) {
     result.solve(std::move(path), static_cast<unsigned>(shortened_waypoints.size() - 1));
   };
   if (path::show_forms(query_.checker, refused_, form, learn, accept).accepted) return true;
-  if (tightened)
-    cut_invalid();
-  else if (!halted())
-    cut(branch, at_fault, by);
+  if (!halted()) cut(branch, at_fault, by);
   return false;
 }
 
@@ -220,17 +215,6 @@ void PoseTree::cut(const std::vector<std::uint32_t>& branch, const Pose& near, s
   cut_off(*first, by);
   for (std::uint32_t n = 1; n < nodes_.size(); ++n)  // children come after their parents
     if (const Node& parent = nodes_[nodes_[n].parent]; parent.cut && !nodes_[n].cut) cut_off(n, parent.cut_by);
-}
-
-/// Cuts all nodes that have become invalid because the tolerance of a pair was reduced.
-void PoseTree::cut_invalid() {
-  for (std::uint32_t n = 1; n < nodes_.size() && !halted(); ++n) {
-    if (nodes_[n].cut) continue;
-    if (const Node& parent = nodes_[nodes_[n].parent]; parent.cut)
-      cut_off(n, parent.cut_by);
-    else if (!state_valid(nodes_[n].pose))
-      cut_off(n, validity_.obstacle());
-  }
 }
 
 void PoseTree::set_failure(PathResult& result) const {

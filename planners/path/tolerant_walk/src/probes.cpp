@@ -55,7 +55,6 @@ double share_within(const std::array<Vec3, 3>& corners, const Aabb& region) {
 
 Probes::Probes(DistanceField& part, const Allowance& allowance, const Aabb& region, std::size_t max_count,
                const std::function<bool(const Vec3&)>& wanted) {
-  exact_ = allowance.exact;
   const double allowed = allowance.overlap + allowance.tolerance;
   const TriangleBvh& bvh = part.bvh();
   double area = 0;
@@ -85,10 +84,7 @@ Probes::Probes(DistanceField& part, const Allowance& allowance, const Aabb& regi
       const double thick = allowance.tolerance / kWallShare;
       const double thin = std::min(thickness_at(part, p - resolution.ray_step() * beside, -normal, thick),
                                    thickness_at(part, p - resolution.ray_step() * normal, -beside, thick));
-      // The wall at an acute edge (more than 92 degrees between the normals) becomes arbitrarily thin. The verifier may
-      // refuse any depth beyond the overlap there.
-      const bool acute = allowance.exact && normal.dot(beside) < -0.03;
-      const Probe probe{p, -allowance.overlap - (acute ? 0 : std::min(allowance.tolerance, kWallShare * thin))};
+      const Probe probe{p, -allowance.overlap - std::min(allowance.tolerance, kWallShare * thin)};
       const auto [entry, is_new] = points.try_emplace(key_of(p), probe);
       if (!is_new && probe.keep > entry->second.keep) entry->second = probe;
     }
@@ -160,17 +156,6 @@ void Probes::build(std::uint32_t first, std::uint32_t count) {
   nodes_[id] = node;
 }
 
-void Probes::allow_near(const Pose& place, DistanceField& other, double reach) {
-  for (auto* kind : {&probes_, &added_})
-    for (Probe& p : *kind) {
-      const Vec3 at = place * p.center;
-      const double depth = other.at(at);
-      if (p.start != geometry::kNoIndex || !(depth < p.keep)) continue;
-      p.start = static_cast<std::uint32_t>(starts_.size());
-      starts_.push_back({at, depth - other.resolution().ray_step(), reach});
-    }
-}
-
 void Probes::merge(Probes other) {
   probes_.insert(probes_.end(), other.probes_.begin(), other.probes_.end());
   added_.insert(added_.end(), other.added_.begin(), other.added_.end());
@@ -178,35 +163,11 @@ void Probes::merge(Probes other) {
   if (!probes_.empty()) build(0, static_cast<std::uint32_t>(probes_.size()));
 }
 
-void Probes::copy_added(const Probes& other) {
-  for (Probe p : other.added_) {
-    if (p.start != geometry::kNoIndex) {
-      starts_.push_back(other.starts_[p.start]);
-      p.start = static_cast<std::uint32_t>(starts_.size() - 1);
-    }
-    added_.push_back(p);
-  }
-}
+std::size_t Probes::bytes() const { return size() * sizeof(Probe) + nodes_.size() * sizeof(Node); }
 
-std::size_t Probes::bytes() const {
-  return size() * sizeof(Probe) + nodes_.size() * sizeof(Node) + starts_.size() * sizeof(Probe::Start);
-}
-
-bool Probes::any_violated(const Pose& place, DistanceField& other, std::uint64_t& distance_queries) {
+bool Probes::any_violated(const Pose& place, DistanceField& other) {
   const Eigen::Matrix3d r = place.q.toRotationMatrix();
-  const auto violated = [&](const Probe& p) {
-    ++distance_queries;
-    const Vec3 at = r * p.center + place.t;
-    double distance = other.at(at);
-    if (exact_ && std::abs(distance - p.keep) < other.error()) {
-      distance = other.measured(at);
-      distance_queries += 20;  // measuring takes about as long as 20 queries of the field
-    }
-    if (!(distance < p.keep)) return false;
-    if (p.start == geometry::kNoIndex) return true;
-    const Probe::Start& start = starts_[p.start];
-    return distance < start.keep || (at - start.at).squaredNorm() > start.reach * start.reach;
-  };
+  const auto violated = [&](const Probe& p) { return other.at(r * p.center + place.t) < p.keep; };
   if (std::any_of(added_.begin(), added_.end(), violated)) return true;
   if (nodes_.empty()) return false;
   if (violated(probes_[last_])) return true;  // the same probe is often violated again
@@ -216,7 +177,6 @@ bool Probes::any_violated(const Pose& place, DistanceField& other, std::uint64_t
   };
   const auto visit = [&](std::uint32_t id) {
     const Node& node = nodes_[id];
-    ++distance_queries;
     return OpenNode{id, node.keep + node.radius - other.at(r * node.center + place.t)};
   };
   std::array<OpenNode, 64> open;

@@ -32,7 +32,7 @@ RrtSearch::RrtSearch(const Parameters& parameters, const PathQuery& query, RunCo
     : parameters_(parameters),
       query_(query),
       rng_(context.rng.fork(0x5c9ee2e)),
-      tree_(parameters_, query, context, rng_, Overlap::everywhere, cache),
+      tree_(parameters_, query, context, rng_, cache),
       max_state_checks_(query.budget.max_steps > 0 ? std::min(max_state_checks, query.budget.max_steps)
                                                    : max_state_checks) {
   const auto* state = dynamic_cast<const PoseTree::SearchTreeState*>(query.resume_from);

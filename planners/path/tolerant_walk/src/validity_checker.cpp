@@ -7,15 +7,9 @@
 
 namespace dismantle::tolerant_walk {
 
-ValidityChecker::ValidityChecker(const Assembly& assembly, const Scene& scene, double max_penetration, Overlap overlap,
-                                 GeometryCache& cache, const Sampling& sampling, double overlap_reach)
-    : assembly_(assembly),
-      scene_(scene),
-      max_penetration_(max_penetration),
-      overlap_(overlap),
-      cache_(cache),
-      sampling_(sampling),
-      overlap_reach_(overlap_reach) {
+ValidityChecker::ValidityChecker(const Assembly& assembly, const Scene& scene, double max_penetration,
+                                 GeometryCache& cache, const Sampling& sampling)
+    : assembly_(assembly), scene_(scene), max_penetration_(max_penetration), cache_(cache), sampling_(sampling) {
   cache_.make_room();
   for (const auto& m : scene_.moving) {
     const Mesh& mesh = *assembly.parts[m.part].mesh;
@@ -33,27 +27,14 @@ DistanceField& ValidityChecker::field(PartId part) {
 }
 
 Allowance ValidityChecker::allowed(PartId a, PartId b) const {
-  return {assembly_.initial_overlap(a, b), max_penetration_, overlap_ == Overlap::near_start};
-}
-
-double ValidityChecker::reach_of_overlap(PartId a, PartId b) const {
-  return 2 * sampling_.resolution.cell + overlap_reach_ * assembly_.initial_overlap(a, b);
+  return {assembly_.initial_overlap(a, b), max_penetration_};
 }
 
 ValidityChecker::Pair& ValidityChecker::pair(const PlacedPart& moving, const PlacedPart& fixed) {
   const auto key = std::pair(moving.part, fixed.part);
   if (const auto known = pairs_.find(key); known != pairs_.end()) return known->second;
-  Allowance allowance = allowed(moving.part, fixed.part);
-  // The tolerance covers an overlap of less than an eighth of it.
-  const bool at_start = overlap_ == Overlap::near_start && allowance.overlap > max_penetration_ / 8;
-  if (at_start) allowance = {0, allowance.tolerance, true};
-  return pairs_.emplace(key, probes(moving, fixed, allowance, at_start)).first->second;
-}
-
-ValidityChecker::Pair ValidityChecker::probes(const PlacedPart& moving, const PlacedPart& fixed,
-                                              const Allowance& allowance, bool overlap_at_start) {
+  const Allowance allowance = allowed(moving.part, fixed.part);
   const double near_distance = sampling_.resolution.near();
-  const double reach = overlap_at_start ? reach_of_overlap(moving.part, fixed.part) : 0;
   const auto make = [&](const PlacedPart& of, const PlacedPart& other, const Pose& to_part) {
     // Samples are dense near the other part at its pose, and sparse elsewhere.
     Aabb near;
@@ -67,38 +48,21 @@ ValidityChecker::Pair ValidityChecker::probes(const PlacedPart& moving, const Pl
       return Probes(field(of.part), allowance, field(of.part).box(), sampling_.max_samples / 5,
                     [](const Eigen::Vector3d&) { return true; });
     }));
-    if (overlap_at_start) all.allow_near(place, to_other, reach);
     return all;
   };
   const auto made = [&](const PlacedPart& of, const PlacedPart& other) {
     const Pose to_part = of.pose.inverse() * other.pose;
-    const GeometryCache::Pair key(field(of.part).mesh(), field(other.part).mesh(), to_part, sampling_, allowance,
-                                  reach);
+    const GeometryCache::Pair key(field(of.part).mesh(), field(other.part).mesh(), to_part, sampling_, allowance);
     return *cache_.probes(key, [&] { return make(of, other, to_part); });
   };
-  return {made(moving, fixed), made(fixed, moving), allowance, overlap_at_start, 0};
-}
-
-/// Halves the tolerance of a pair that the verifier refuses repeatedly, because the verifier finds deeper penetration
-/// than the samples do. Does so at most five times.
-bool ValidityChecker::tighten(const PlacedPart& moving, const PlacedPart& fixed, Pair& both) {
-  if (overlap_ == Overlap::everywhere || both.refused < 2 || both.allowance.tolerance < max_penetration_ / 16)
-    return false;
-  Allowance allowance = both.allowance;
-  allowance.tolerance /= 2;
-  Pair next = probes(moving, fixed, allowance, true);
-  next.refused = both.refused;
-  next.of_moving.copy_added(both.of_moving);
-  next.of_fixed.copy_added(both.of_fixed);
-  both = std::move(next);
-  return true;
+  return pairs_.emplace(key, Pair{made(moving, fixed), made(fixed, moving)}).first->second;
 }
 
 bool ValidityChecker::clear(const PlacedPart& moving, const Pose& at, const PlacedPart& fixed) {
   Pair& both = pair(moving, fixed);
   const Pose place = fixed.pose.inverse() * at;
-  return !both.of_moving.any_violated(place, field(fixed.part), distance_queries_) &&
-         !both.of_fixed.any_violated(place.inverse(), field(moving.part), distance_queries_);
+  return !both.of_moving.any_violated(place, field(fixed.part)) &&
+         !both.of_fixed.any_violated(place.inverse(), field(moving.part));
 }
 
 bool ValidityChecker::is_valid(const Pose& displacement) {
@@ -122,8 +86,8 @@ bool ValidityChecker::is_valid(const Pose& displacement) {
 
 /// `place` maps the frame of `of` to that of `other`.
 void ValidityChecker::add_probes(const PlacedPart& of, const PlacedPart& other, const Eigen::Vector3d& point,
-                                 const Pose& place, const Pair& both, Probes& probes) {
-  const Allowance& most = both.allowance;
+                                 const Pose& place, Probes& probes) {
+  const Allowance most = allowed(of.part, other.part);
   DistanceField& solid = field(other.part);
   // The verifier may refuse depths below the tolerance where a wall is thin or its bounds are not tight. From now on
   // half of the refused depth is allowed here, or half of the tolerance if the depth is unknown.
@@ -131,9 +95,7 @@ void ValidityChecker::add_probes(const PlacedPart& of, const PlacedPart& other, 
   const double beyond = solid.at(there) < 0 ? solid.bvh().closest(there).distance - most.overlap : 0;
   const double keep = -most.overlap - 0.5 * (beyond > 0 ? std::min(beyond, most.tolerance) : most.tolerance);
   const Pose at_first = other.pose.inverse() * of.pose;
-  const auto add = [&](const Eigen::Vector3d& p) {
-    probes.add({p, both.overlap_at_start ? keep : std::min(keep, solid.at(at_first * p))});
-  };
+  const auto add = [&](const Eigen::Vector3d& p) { probes.add({p, std::min(keep, solid.at(at_first * p))}); };
   add(point);
   // The verifier would refuse nearby points next. At most about 100 vertices are added, however fine the mesh is.
   std::vector<Eigen::Vector3d> near;
@@ -141,25 +103,20 @@ void ValidityChecker::add_probes(const PlacedPart& of, const PlacedPart& other, 
     if ((v - point).norm() < sampling_.resolution.neighborhood()) near.push_back(v);
   const std::size_t every = near.size() / 100 + 1;
   for (std::size_t k = 0; k < near.size(); k += every) add(near[k]);
-  if (both.overlap_at_start) probes.allow_near(at_first, solid, reach_of_overlap(of.part, other.part));
 }
 
-bool ValidityChecker::add_contact_sample(PartId part, PartId other, const Eigen::Vector3d& point,
+void ValidityChecker::add_contact_sample(PartId part, PartId other, const Eigen::Vector3d& point,
                                          const Pose& displacement) {
-  bool tightened = false;
   for (const auto& moving : scene_.moving)
     for (const auto& fixed : scene_.fixed) {
       const Pose place = fixed.pose.inverse() * (displacement * moving.pose);
       if (std::minmax(moving.part, fixed.part) != std::minmax(part, other)) continue;
       Pair& both = pair(moving, fixed);
-      ++both.refused;
-      tightened = tighten(moving, fixed, both) || tightened;
       if (moving.part == part)
-        add_probes(moving, fixed, point, place, both, both.of_moving);
+        add_probes(moving, fixed, point, place, both.of_moving);
       else
-        add_probes(fixed, moving, point, place.inverse(), both, both.of_fixed);
+        add_probes(fixed, moving, point, place.inverse(), both.of_fixed);
     }
-  return tightened;
 }
 
 }  // namespace dismantle::tolerant_walk

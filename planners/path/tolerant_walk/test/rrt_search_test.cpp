@@ -65,8 +65,7 @@ TEST(TolerantRrt, IsWhatGuidedComesToWhenContactSearchFails) {
   Table table(snapped(0.03, Pose{}));
   const auto plan = [&](unsigned depth) {
     const ParamSet few = path::test::guided(
-        {{"tolerant_rrt.state_checks", std::int64_t{4000}}, {"tolerant_rrt.level_state_checks", 31.25}},
-        {"navigation_tree"});
+        {{"tolerant_rrt.state_checks", std::int64_t{4000}}, {"tolerant_rrt.level_state_checks", 31.25}});
     return table.plan("guided", few, 1, 0, depth);
   };
   EXPECT_FALSE(plan(2).stats.extra.contains("tolerant_rrt_state_checks")) << "shallow searches are for many parts";
@@ -79,8 +78,7 @@ TEST(TolerantRrt, IsWhatGuidedComesToWhenContactSearchFails) {
 TEST(TolerantRrt, SharesTheBudgetOfGuidedUnderADepthLimit) {
   Table table(snapped(0.03, Pose{}));
   const ParamSet whole = path::test::guided(
-      {{"tolerant_rrt.state_checks", std::int64_t{100'000}}, {"tolerant_rrt.level_state_checks", 781.25}},
-      {"navigation_tree"});
+      {{"tolerant_rrt.state_checks", std::int64_t{100'000}}, {"tolerant_rrt.level_state_checks", 781.25}});
   const PathResult free = table.plan("guided", whole, 1, 0, 3);
   const double pushes = free.stats.cost - free.stats.extra.at("tolerant_rrt_cost");
   const auto budget = static_cast<std::uint64_t>(pushes) + 700;

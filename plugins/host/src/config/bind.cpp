@@ -97,6 +97,7 @@ std::string unknown_key_message(const std::string& key, const SectionContext& co
     for (const auto& place : home->second) places += (places.empty() ? "" : " or ") + place;
     return text + fmt::format("; it belongs to {}", places);
   }
+  if (const auto advice = advice_for_removed(key); !advice.empty()) return text + "; " + advice;
   if (const auto near = nearest(key, known)) return text + fmt::format("; did you mean '{}'?", *near);
   if (const auto near = nearest(key, advanced)) return text + fmt::format("; did you mean 'advanced.{}'?", *near);
   std::vector<std::string> elsewhere;

@@ -314,7 +314,9 @@ std::string Registry::missing_text(std::string_view what, const std::string& id,
     return fmt::format("{} '{}' is in two files: {} and {}; remove one of them", what, id,
                        it->second.file->path.string(), it->second.rivals.front()->path.string());
   std::string text = fmt::format("unknown {} '{}'", what, id);
-  if (const auto near = nearest(id, known))
+  if (const auto advice = advice_for_removed(id); !advice.empty())
+    text += fmt::format("; {}", advice);
+  else if (const auto near = nearest(id, known))
     text += fmt::format("; did you mean '{}'?", *near);
   else if (known.empty())
     text += fmt::format("; no {} was found", what);

@@ -16,4 +16,7 @@ DISMANTLE_API std::size_t edit_distance(const std::string& a, const std::string&
 /// The candidate closest to `word`, if it is at most max(1, length of word / 3) edits away; ties go to the first.
 DISMANTLE_API std::optional<std::string> nearest(const std::string& word, const std::vector<std::string>& candidates);
 
+/// What to write instead of a built-in type or key that is no more; empty: it is none.
+DISMANTLE_API std::string advice_for_removed(const std::string& name);
+
 }  // namespace dismantle

@@ -23,11 +23,6 @@ class DistanceField {
 
   /// Assembled frame of the part, assembly units; negative inside.
   double at(const Eigen::Vector3d& p);
-  /// Measured on the triangles, not interpolated.
-  double measured(const Eigen::Vector3d& p) const;
-  double error() const {
-    return 0.35 * fine_.cell();
-  }  ///< bound of the error of at() near the surface, found by experiment
   const Resolution& resolution() const { return resolution_; }
   const TriangleBvh& bvh() const { return bvh_; }
   const Mesh& mesh() const { return *mesh_; }

@@ -30,20 +30,18 @@ class GeometryCache {
   /// make_room() drops everything once more than about `most_bytes` are cached.
   explicit GeometryCache(std::size_t most_bytes = std::size_t{512} << 20) : most_bytes_(most_bytes) {}
 
-  /// The cache that all planners of this process share, across plugin libraries. It is deleted with its last holder.
+  /// The cache that all planners of a plugin library share. It is deleted with its last holder.
   static std::shared_ptr<GeometryCache> shared();
 
   /// Everything that the probes of one mesh against another, or against any other, depend on.
   struct Pair {
     Pair(const Mesh& of, const Sampling& sampling, const Allowance& allowance);
-    Pair(const Mesh& of, const Mesh& other, const Pose& place, const Sampling& sampling, const Allowance& allowance,
-         double reach);
+    Pair(const Mesh& of, const Mesh& other, const Pose& place, const Sampling& sampling, const Allowance& allowance);
     auto operator<=>(const Pair&) const = default;
 
    private:
     std::array<const Mesh*, 2> meshes_;
-    std::array<double, 12> numbers_;
-    bool exact_;
+    std::array<double, 11> numbers_;
   };
 
   /// Call it between searches. Objects in use stay alive with their owners.

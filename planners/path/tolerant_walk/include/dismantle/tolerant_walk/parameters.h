@@ -27,9 +27,6 @@ struct TreeParameters {
   /// Maximum number of samples of a part near another one; a fifth as many are on its whole surface. More: fewer paths
   /// are refused, each state check costs more.
   std::int64_t max_samples = 5'000;
-  /// For a group thinner than its initial overlap: distance from the start up to which that overlap is allowed, as a
-  /// multiple of the overlap, plus two cells.
-  double overlap_reach = 3;
   std::int64_t shortcuts = 60;  ///< Attempts to replace pieces of a path by direct motions. More: shorter paths.
   /// Distance between the state checks along a shortcut, as a multiple of verify.max_penetration. Larger: faster, but
   /// more paths are refused.
@@ -37,8 +34,8 @@ struct TreeParameters {
   /// Number of times that a refused path is shortened again with the refused place as a new sample. After that its
   /// branch is cut.
   std::int64_t repairs = 4;
-  /// An earlier tree is resumed only if parts that have left caused at least this share of its invalid poses since its
-  /// last progress. Smaller: trees are resumed more often, even in dead ends.
+  /// An earlier tree is resumed only if parts that have left caused at least this share of its invalid poses of its
+  /// search. Smaller: trees are resumed more often, even in dead ends.
   double resume_share = 0.1;
   /// Poses that the rest of the path reproduces to within this distance are dropped (assembly units).
   double thinning = 1e-4;
@@ -63,7 +60,6 @@ void describe_tree(Schema<P>& s) {
                 "passages are found, with more state checks."});
   s.advanced("field_cell", &TreeParameters::field_cell, {0.1, 100});
   s.advanced("max_samples", &TreeParameters::max_samples, {100, 1e7});
-  s.advanced("overlap_reach", &TreeParameters::overlap_reach, {0, 1000});
   s.advanced("first_step_min", &TreeParameters::first_step_min, {.min = 0, .max = 1, .min_open = true});
   s.advanced("first_step_max", &TreeParameters::first_step_max, {1, 100});
   s.advanced("step_growth", &TreeParameters::step_growth, {1, 10});

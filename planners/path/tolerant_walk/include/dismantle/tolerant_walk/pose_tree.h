@@ -33,7 +33,7 @@ class PoseTree {
   /// The tree of an unsuccessful search.
   class SearchTreeState final : public SearchState {
    public:
-    /// True if parts that have left caused at least this share of the invalid poses since the last progress. Otherwise
+    /// True if parts that have left caused at least this share of the invalid poses of that search. Otherwise
     /// a new tree with other random numbers is better: this one would stay in its dead ends.
     bool obstacles_removed(const Scene& scene, double share) const;
 
@@ -46,12 +46,12 @@ class PoseTree {
     };
     std::vector<Node> nodes;
     std::vector<RefusedPlace> refused_places;
-    std::map<PartId, std::uint64_t> touched, blocked_since_progress;
+    std::map<PartId, std::uint64_t> touched, blocked;
     std::uint64_t state_checks = 0;  ///< including those of the searches that it resumed
   };
 
   /// All arguments must outlive this object.
-  PoseTree(const TreeParameters& parameters, const PathQuery& query, RunContext& context, Rng& rng, Overlap overlap,
+  PoseTree(const TreeParameters& parameters, const PathQuery& query, RunContext& context, Rng& rng,
            GeometryCache& cache);
 
   const Node& operator[](std::uint32_t node) const { return nodes_[node]; }
@@ -61,8 +61,6 @@ class PoseTree {
   std::uint64_t state_checks() const { return state_checks_; }
   /// State checks that resume() has saved.
   std::uint64_t spared() const { return spared_; }
-  /// Distance queries of all state checks: a check takes hundreds to tens of thousands.
-  std::uint64_t distance_queries() const { return validity_.distance_queries(); }
   bool halted() const;
   /// The number of refused paths has reached its limit.
   bool given_up() const { return refused_ >= static_cast<std::uint64_t>(parameters_.max_refusals); }
@@ -72,9 +70,6 @@ class PoseTree {
   /// latter.
   void resume(const SearchTreeState& state);
   std::shared_ptr<const SearchTreeState> search_state() const;
-
-  /// The search has made progress, so the obstacles met so far do not block it.
-  void note_progress() { blocked_since_progress_.clear(); }
 
   bool state_valid(const Pose& displacement);
   /// The pose after a step from a node; the step is multiplied by `scale`.
@@ -100,7 +95,6 @@ class PoseTree {
   Path path_of(const std::vector<Pose>& waypoints) const;
   void cut_off(std::uint32_t node, std::optional<PartId> by);
   void cut(const std::vector<std::uint32_t>& chain, const Pose& near, std::optional<PartId> by);
-  void cut_invalid();
 
   const TreeParameters& parameters_;
   const PathQuery& query_;
@@ -116,7 +110,8 @@ class PoseTree {
   std::uint64_t state_checks_ = 0, refused_ = 0, spared_ = 0;
   std::size_t resumed_ = 0;  // number of nodes taken over by resume()
   std::vector<SearchTreeState::RefusedPlace> refused_places_;
-  std::map<PartId, std::uint64_t> touched_, blocked_since_progress_;  // number of invalid poses by fixed part
+  std::map<PartId, std::uint64_t> touched_,
+      blocked_;  // number of invalid poses by fixed part; without those of resumed searches
 };
 
 }  // namespace dismantle::tolerant_walk

@@ -13,53 +13,37 @@
 
 namespace dismantle::tolerant_walk {
 
-/// Where a pair may penetrate as deeply as when assembled. With `everywhere`, a part thinner than its overlap could
-/// pass through walls. With `near_start`, a part with interference along its whole path could never leave.
-enum class Overlap { everywhere, near_start };
-
 /// Checks a necessary condition at samples: no pair penetrates deeper than its initial overlap plus `max_penetration`.
 /// Uses the original triangles and shares no code with the verifier. The probes of a pair are made when its parts first
 /// come near each other. Not thread-safe.
 class ValidityChecker {
  public:
-  /// `assembly` and `cache` must outlive this object. `overlap_reach`: with Overlap::near_start, an overlap is allowed
-  /// within this many times its depth of the start.
-  ValidityChecker(const Assembly& assembly, const Scene& scene, double max_penetration, Overlap overlap,
-                  GeometryCache& cache, const Sampling& sampling = {}, double overlap_reach = 3);
+  /// `assembly` and `cache` must outlive this object.
+  ValidityChecker(const Assembly& assembly, const Scene& scene, double max_penetration, GeometryCache& cache,
+                  const Sampling& sampling = {});
 
   /// `displacement` acts on all moving parts at their poses in the scene.
   bool is_valid(const Pose& displacement);
   /// The fixed part that made the last invalid displacement invalid.
   std::optional<PartId> obstacle() const { return obstacle_; }
-  /// Number of distance queries so far: a measure of cost that does not depend on the machine.
-  std::uint64_t distance_queries() const { return distance_queries_; }
   /// Adds a place that the verifier has refused: `point` (assembled frame of `part`) was too deep in `other` at
-  /// `displacement`. From now on this point and its neighbours must stay less deep, except at the start. Returns true
-  /// if the tolerance of the whole pair was halved as well, because of an earlier refusal. Poses that were valid may
-  /// then be invalid.
-  bool add_contact_sample(PartId part, PartId other, const Eigen::Vector3d& point, const Pose& displacement);
+  /// `displacement`. From now on this point and its neighbours must stay less deep, except at the start.
+  void add_contact_sample(PartId part, PartId other, const Eigen::Vector3d& point, const Pose& displacement);
 
  private:
   struct Pair {
     Probes of_moving, of_fixed;
-    Allowance allowance;            ///< of these probes
-    bool overlap_at_start = false;  ///< probes may exceed the allowance only near the start
-    unsigned refused = 0;           ///< number of refusals by the verifier
   };
   DistanceField& field(PartId part);
   Pair& pair(const PlacedPart& moving, const PlacedPart& fixed);
-  Pair probes(const PlacedPart& moving, const PlacedPart& fixed, const Allowance& allowance, bool overlap_at_start);
   Allowance allowed(PartId a, PartId b) const;
-  double reach_of_overlap(PartId a, PartId b) const;
-  bool tighten(const PlacedPart& moving, const PlacedPart& fixed, Pair& both);
   void add_probes(const PlacedPart& of, const PlacedPart& other, const Eigen::Vector3d& point, const Pose& place,
-                  const Pair& both, Probes& probes);
+                  Probes& probes);
   bool clear(const PlacedPart& moving, const Pose& at, const PlacedPart& fixed);
 
   const Assembly& assembly_;
   Scene scene_;
   double max_penetration_;
-  Overlap overlap_;
   /// Bounding ball of a moving part.
   struct Ball {
     Eigen::Vector3d center;
@@ -69,11 +53,9 @@ class ValidityChecker {
   std::vector<Aabb> boxes_;  // by fixed part, its assembled frame
   GeometryCache& cache_;
   Sampling sampling_;
-  double overlap_reach_;
   std::map<PartId, std::shared_ptr<DistanceField>> fields_;
   std::map<std::pair<PartId, PartId>, Pair> pairs_;  // by moving and fixed part
   std::optional<PartId> obstacle_;
-  std::uint64_t distance_queries_ = 0;
   std::size_t first_ = 0;  // index of the fixed part to check first: the last obstacle
 };
 
