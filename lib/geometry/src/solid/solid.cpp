@@ -188,6 +188,20 @@ bool share_corner(const Triangle& a, const Triangle& b) {
   return false;
 }
 
+/// Distance to the opposite side, where the solid ends. Where a surface touches itself with nothing but solid on both
+/// sides (a thread tooth that ends on the underside of its head), the solid goes on. Infinite: not within reach.
+template <class Blocks>
+double wall_behind(const TriangleBvh& bvh, const Vec3& from, const Vec3& into, double reach, const Blocks& blocks) {
+  const double beyond = 1e-3 * reach;  // of a gap that counts as none: 0.4 % of the tolerance
+  for (double at = 0; at < reach;) {
+    at += first_hit(bvh, from + at * into, into, reach - at, blocks);
+    if (!(at < reach)) break;
+    if (!bvh.inside(from + (at + beyond) * into)) return at;
+    at += beyond;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 Solid::Solid(const Mesh& m, const Poll& poll, Surface surface)
@@ -243,7 +257,7 @@ void Solid::measure_thickness(double reach, const Poll& poll) {
     for (const Vec3& w :
          {Vec3(1.0 / 3, 1.0 / 3, 1.0 / 3), Vec3(0.8, 0.1, 0.1), Vec3(0.1, 0.8, 0.1), Vec3(0.1, 0.1, 0.8)}) {
       const Vec3 from = w[0] * mesh.vertex(t, 0) + w[1] * mesh.vertex(t, 1) + w[2] * mesh.vertex(t, 2);
-      thickness[t] = std::min(thickness[t], first_hit(bvh, from, -normals[t], reach, blocks));
+      thickness[t] = std::min(thickness[t], wall_behind(bvh, from, -normals[t], reach, blocks));
     }
   }
   vertex_thickness.assign(mesh.vertices.size(), std::numeric_limits<double>::infinity());
