@@ -72,7 +72,8 @@ TEST(Thickness, AThinWallIsMeasuredToItsOtherSide) {
     const double wall = std::pow(10, rng.uniform(-6, -1));
     const Pose pose = shapes::random_pose(rng, 5);
     // A disc with a second disc above it, both thin, joined at the axis by a peg.
-    const Mesh mesh = turned({{0, 0}, {2, 0}, {2, wall}, {0.5, wall}, {0.5, 0.3}, {2, 0.3}, {2, 0.3 + wall}, {0, 0.3 + wall}}, 24);
+    const Mesh mesh =
+        turned({{0, 0}, {2, 0}, {2, wall}, {0.5, wall}, {0.5, 0.3}, {2, 0.3}, {2, 0.3 + wall}, {0, 0.3 + wall}}, 24);
     for (const double height : {0.0, 0.3}) {
       const std::vector<double> found = thickness_below(mesh, 0.2, pose, height);
       ASSERT_FALSE(found.empty());
