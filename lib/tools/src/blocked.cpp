@@ -8,6 +8,9 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "arcs.h"
 #include "dismantle/aabb.h"
@@ -37,35 +40,20 @@ class Surroundings {
     Eigen::Vector2d middle;
     double reach, low, high;
   };
-  /// Calls visit(triangle) for the triangles of the boxes with may_meet(bound), until one returns false.
-  template <class MayMeet, class Visit>
-  void visit(const MayMeet& may_meet, const Visit& visit) const {
-    std::array<std::uint32_t, 192> stack;
-    std::size_t top = 0;
-    stack[top++] = 0;
-    while (top > 0) {
-      const std::uint32_t id = stack[--top];
-      const TriangleBvh::Node& node = surface_.nodes()[id];
-      if (!may_meet(bound(node.box))) continue;
-      if (node.count == 0) {
-        stack[top++] = node.first;
-        stack[top++] = id + 1;
-        continue;
-      }
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        auto corners = surface_.corners(surface_.order()[i]);
-        for (Eigen::Vector3d& p : corners) p = turn_ * p + shift_;
-        if (!visit(corners)) return;
-      }
-    }
-  }
-
- private:
-  Bound bound(const Aabb& box) const {
+  Bound bound(const TriangleBvh::Node& node) const {
+    const Aabb& box = node.box;
     const Eigen::Vector3d middle = turn_ * box.center() + shift_, half = size_ * box.size() / 2;
     return {middle.head<2>(), half.head<2>().norm(), middle.z() - half.z(), middle.z() + half.z()};
   }
+  const TriangleBvh::Node& node(std::uint32_t id) const { return surface_.nodes()[id]; }
+  /// The i-th triangle of the hierarchy's leaves.
+  std::array<Eigen::Vector3d, 3> triangle(std::uint32_t i) const {
+    auto corners = surface_.corners(surface_.order()[i]);
+    for (Eigen::Vector3d& p : corners) p = turn_ * p + shift_;
+    return corners;
+  }
 
+ private:
   const TriangleBvh& surface_;
   Eigen::Matrix3d turn_, size_;
   Eigen::Vector3d shift_;
@@ -85,41 +73,105 @@ struct Ring {
   }
 };
 
-/// The blocked angles of one volume that is no tube.
+/// Some triangle meets a ring.
+bool meets(const Ring& ring, const Surroundings& around) {
+  std::vector<std::uint32_t> open{0};
+  while (!open.empty()) {
+    const std::uint32_t id = open.back();
+    open.pop_back();
+    const TriangleBvh::Node& node = around.node(id);
+    if (!ring.may_meet(around.bound(node))) continue;
+    if (node.count == 0) {
+      open.push_back(node.first);
+      open.push_back(id + 1);
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+      if (ring.piece(around.triangle(i))) return true;
+  }
+  return false;
+}
+
+/// The blocked angles of one volume that is no tube. What a range leaves open is all that its halves look at.
 class Search {
  public:
   Search(const Outline& outline, const Ring& ring, const Surroundings& around, const Arcs& known, Arcs& blocked)
       : outline_(outline), ring_(ring), around_(around), known_(known), blocked_(blocked) {}
 
-  void descend(double lo, double hi, int halvings) {
-    if (known(lo, hi)) return;
-    const double middle = (lo + hi) / 2, half = (hi - lo) / 2 * (1 + 1e-12);
-    const Eigen::Rotation2Dd back(-middle);
-    bool pierced = false;
-    int wide = 0, undecided = 0;
-    const auto may_meet = [&](const Surroundings::Bound& b) {
-      if (!ring_.may_meet(b)) return false;
-      const double margin = half * std::min(b.middle.norm() + b.reach, outline_.farthest);
-      return outline_.distance_to(back * b.middle) <= b.reach + margin;
-    };
-    around_.visit(may_meet, [&](const std::array<Eigen::Vector3d, 3>& triangle) {
-      const auto piece = ring_.piece(triangle);
-      if (!piece) return true;
-      const double off = std::remainder(piece->directions.middle - outline_.directions.middle - middle, kTurn);
-      if (std::abs(off) > piece->directions.half + outline_.directions.half + half) return true;
-      const double margin = half * std::min(piece->farthest, outline_.farthest);
-      if (outline_.clear(*piece, -middle, margin)) return true;
-      pierced = outline_.pierced(*piece, -middle, margin);
-      wide += margin >= outline_.half_width;
-      return !pierced && wide < kWide && ++undecided < kUndecided;
-    });
-    if (!pierced && wide + undecided == 0) return;
-    if (pierced || halvings == 0) return block(lo, hi);
-    descend(lo, middle, halvings - 1);
-    descend(middle, hi, halvings - 1);
-  }
+  void run() { descend(0, kTurn, kHalvings, {{}, {0}}); }
 
  private:
+  /// What may meet the tool in a range: pieces of triangles, and boxes of the hierarchy.
+  struct Open {
+    std::vector<std::uint32_t> pieces, nodes;
+  };
+  enum class Seen { clear, undecided, pierced };
+
+  void descend(double lo, double hi, int halvings, const Open& open) {
+    if (known(lo, hi)) return;
+    const double middle = (lo + hi) / 2, half = (hi - lo) / 2 * (1 + 1e-12);
+    Open left;
+    int wide = 0, undecided = 0;
+    const auto enough = [&] { return wide >= kWide || undecided >= kUndecided; };
+    const auto pierces = [&](std::uint32_t k) {
+      if (enough()) {
+        left.pieces.push_back(k);
+        return false;
+      }
+      const Piece& piece = pieces_[k];
+      const double margin = half * std::min(piece.farthest, outline_.farthest);
+      const Seen seen = look(piece, middle, half, margin);
+      if (seen != Seen::undecided) return seen == Seen::pierced;
+      left.pieces.push_back(k);
+      ++undecided;
+      wide += margin >= outline_.half_width;
+      return false;
+    };
+    for (const std::uint32_t k : open.pieces)
+      if (pierces(k)) return block(lo, hi);
+    const Eigen::Rotation2Dd back(-middle);
+    std::vector<std::uint32_t> nodes = open.nodes;
+    while (!nodes.empty() && !enough()) {
+      const std::uint32_t id = nodes.back();
+      nodes.pop_back();
+      const TriangleBvh::Node& node = around_.node(id);
+      if (!may_meet(around_.bound(node), back, half)) continue;
+      if (node.count == 0) {
+        nodes.push_back(node.first);
+        nodes.push_back(id + 1);
+        continue;
+      }
+      const auto [first, last] = pieces_of(id);
+      for (std::uint32_t k = first; k < last; ++k)
+        if (pierces(k)) return block(lo, hi);
+    }
+    left.nodes = std::move(nodes);
+    if (left.pieces.empty() && left.nodes.empty()) return;
+    if (halvings == 0) return block(lo, hi);
+    descend(lo, middle, halvings - 1, left);
+    descend(middle, hi, halvings - 1, left);
+  }
+
+  Seen look(const Piece& piece, double middle, double half, double margin) const {
+    const double off = std::remainder(piece.directions.middle - outline_.directions.middle - middle, kTurn);
+    if (std::abs(off) > piece.directions.half + outline_.directions.half + half) return Seen::clear;
+    if (outline_.clear(piece, -middle, margin)) return Seen::clear;
+    return outline_.pierced(piece, -middle, margin) ? Seen::pierced : Seen::undecided;
+  }
+  bool may_meet(const Surroundings::Bound& b, const Eigen::Rotation2Dd& back, double half) const {
+    if (!ring_.may_meet(b)) return false;
+    const double margin = half * std::min(b.middle.norm() + b.reach, outline_.farthest);
+    return outline_.distance_to(back * b.middle) <= b.reach + margin;
+  }
+  /// Range of `pieces_`: of the triangles of a leaf, cut when it is first needed.
+  std::pair<std::uint32_t, std::uint32_t> pieces_of(std::uint32_t leaf) {
+    const auto known = leaves_.find(leaf);
+    if (known != leaves_.end()) return known->second;
+    const auto first = static_cast<std::uint32_t>(pieces_.size());
+    const TriangleBvh::Node& node = around_.node(leaf);
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+      if (const auto piece = ring_.piece(around_.triangle(i))) pieces_.push_back(*piece);
+    return leaves_[leaf] = {first, static_cast<std::uint32_t>(pieces_.size())};
+  }
   bool known(double lo, double hi) const {
     const auto after = std::upper_bound(known_.begin(), known_.end(), std::pair{lo, kTurn});
     return after != known_.begin() && std::prev(after)->second >= hi;
@@ -131,6 +183,8 @@ class Search {
   const Surroundings& around_;
   const Arcs& known_;
   Arcs& blocked_;
+  std::vector<Piece> pieces_;
+  std::unordered_map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> leaves_;  // by node
 };
 
 /// With what is known to be blocked.
@@ -141,17 +195,9 @@ Arcs blocked_by(const Volume& v, const Surroundings& around, const Arcs& known) 
   const double touch = kTouch * std::max(ring.farthest, v.high - v.low);
   ring.low += touch;
   ring.high -= touch;
+  if (tube) return meets(ring, around) ? Arcs{{0, kTurn}} : known;
   Arcs out = known;
-  if (tube) {
-    around.visit([&](const Surroundings::Bound& b) { return ring.may_meet(b); },
-                 [&](const std::array<Eigen::Vector3d, 3>& triangle) {
-                   const bool meets = ring.piece(triangle).has_value();
-                   if (meets) out = {{0, kTurn}};
-                   return !meets;
-                 });
-    return out;
-  }
-  Search(outline, ring, around, known, out).descend(0, kTurn, kHalvings);
+  Search(outline, ring, around, known, out).run();
   return joined(std::move(out));
 }
 
