@@ -109,6 +109,7 @@ class Search {
   void descend(double lo, double hi, int halvings, const Open& open) {
     if (known(lo, hi)) return;
     const double middle = (lo + hi) / 2, half = (hi - lo) / 2 * (1 + 1e-12);
+    const Eigen::Matrix2d back = Eigen::Rotation2Dd(-middle).toRotationMatrix();
     Open left;
     int wide = 0, undecided = 0;
     const auto enough = [&] { return wide >= kWide || undecided >= kUndecided; };
@@ -119,7 +120,7 @@ class Search {
       }
       const Piece& piece = pieces_[k];
       const double margin = half * std::min(piece.farthest, outline_.farthest);
-      const Seen seen = look(piece, middle, half, margin);
+      const Seen seen = look(piece, middle, back, half, margin);
       if (seen != Seen::undecided) return seen == Seen::pierced;
       left.pieces.push_back(k);
       ++undecided;
@@ -128,7 +129,6 @@ class Search {
     };
     for (const std::uint32_t k : open.pieces)
       if (pierces(k)) return block(lo, hi);
-    const Eigen::Rotation2Dd back(-middle);
     std::vector<std::uint32_t> nodes = open.nodes;
     while (!nodes.empty() && !enough()) {
       const std::uint32_t id = nodes.back();
@@ -151,13 +151,15 @@ class Search {
     descend(middle, hi, halvings - 1, left);
   }
 
-  Seen look(const Piece& piece, double middle, double half, double margin) const {
-    const double off = std::remainder(piece.directions.middle - outline_.directions.middle - middle, kTurn);
-    if (std::abs(off) > piece.directions.half + outline_.directions.half + half) return Seen::clear;
-    if (outline_.clear(piece, -middle, margin)) return Seen::clear;
-    return outline_.pierced(piece, -middle, margin) ? Seen::pierced : Seen::undecided;
+  Seen look(const Piece& piece, double middle, const Eigen::Matrix2d& back, double half, double margin) const {
+    const double off = piece.directions.middle - outline_.directions.middle - middle;
+    const double least = std::abs(off - kTurn * std::round(off / kTurn));
+    if (least > piece.directions.half + outline_.directions.half + half) return Seen::clear;
+    const Piece at = turned(piece, back);
+    if (outline_.clear(at, margin)) return Seen::clear;
+    return outline_.pierced(at, margin) ? Seen::pierced : Seen::undecided;
   }
-  bool may_meet(const Surroundings::Bound& b, const Eigen::Rotation2Dd& back, double half) const {
+  bool may_meet(const Surroundings::Bound& b, const Eigen::Matrix2d& back, double half) const {
     if (!ring_.may_meet(b)) return false;
     const double margin = half * std::min(b.middle.norm() + b.reach, outline_.farthest);
     return outline_.distance_to(back * b.middle) <= b.reach + margin;

@@ -70,16 +70,6 @@ bool meet(const Piece& piece, const Vec2& low, const Vec2& high) {
   return true;
 }
 
-Piece turned(const Piece& piece, double angle) {
-  Piece out = piece;
-  const double c = std::cos(angle), s = std::sin(angle);
-  for (std::size_t i = 0; i < piece.count; ++i) {
-    const Vec2& p = piece.corner[i];
-    out.corner[i] = {c * p.x() - s * p.y(), s * p.x() + c * p.y()};
-  }
-  return out;
-}
-
 /// Of points, each widened by an angle to both sides, of a convex set that does not contain the axis.
 Directions directions_of(const Vec2* points, const double* widths, std::size_t count) {
   const double first = std::atan2(points[0].y(), points[0].x());
@@ -95,6 +85,12 @@ Directions directions_of(const Vec2* points, const double* widths, std::size_t c
 constexpr double kAll = 4;  // more than pi
 
 }  // namespace
+
+Piece turned(const Piece& piece, const Eigen::Matrix2d& turn) {
+  Piece out = piece;
+  for (std::size_t i = 0; i < piece.count; ++i) out.corner[i] = turn * piece.corner[i];
+  return out;
+}
 
 std::optional<Piece> piece_of(const std::array<Eigen::Vector3d, 3>& triangle, double low, double high) {
   std::array<Eigen::Vector3d, 5> polygon{triangle[0], triangle[1], triangle[2]}, cut;
@@ -152,14 +148,12 @@ double Outline::distance_to(const Vec2& p) const {
   return (volume->from - p).cwiseMax(p - volume->to).cwiseMax(0).norm();
 }
 
-bool Outline::clear(const Piece& piece, double angle, double margin) const {
-  const Piece at = turned(piece, angle);
+bool Outline::clear(const Piece& at, double margin) const {
   if (volume->form == Form::obround) return distance(at, volume->from, volume->to) > volume->radius + margin;
   return !meet(at, volume->from.array() - margin, volume->to.array() + margin);
 }
 
-bool Outline::pierced(const Piece& piece, double angle, double margin) const {
-  const Piece at = turned(piece, angle);
+bool Outline::pierced(const Piece& at, double margin) const {
   if (volume->form == Form::obround) return distance(at, volume->from, volume->to) < volume->radius - margin;
   return meet(at, volume->from.array() + margin, volume->to.array() - margin);
 }

@@ -25,6 +25,9 @@ struct Piece {
 /// None: the triangle has no point between the heights.
 std::optional<Piece> piece_of(const std::array<Eigen::Vector3d, 3>& triangle, double low, double high);
 
+/// The piece turned about the axis; its directions are left.
+Piece turned(const Piece& piece, const Eigen::Matrix2d& turn);
+
 /// A box or an obround seen along the axis.
 struct Outline {
   const Volume* volume;
@@ -35,10 +38,10 @@ struct Outline {
   explicit Outline(const Volume& v);
   /// Of a point from the outline; 0 inside.
   double distance_to(const Eigen::Vector2d& p) const;
-  /// True proves that the piece, turned by `angle`, is farther than `margin` from the outline.
-  bool clear(const Piece& piece, double angle, double margin) const;
-  /// True proves that the piece, turned by `angle`, has a point inside the outline farther than `margin` from its edge.
-  bool pierced(const Piece& piece, double angle, double margin) const;
+  /// True proves that the piece is farther than `margin` from the outline.
+  bool clear(const Piece& piece, double margin) const;
+  /// True proves that the piece has a point inside the outline farther than `margin` from its edge.
+  bool pierced(const Piece& piece, double margin) const;
 };
 
 }  // namespace dismantle::tools
