@@ -1,15 +1,17 @@
 // The state of the page, and its effect on the scene. Every change of the state notifies the listeners.
 import {partly} from './plan/lies.js';
+import {fallen} from './plan/statics.js';
 import {screwInterpolate} from './plan/screw.js';
 import {Parts} from './scene/parts.js';
 
 const AMBER = '#f59e0b', HELD = '#12b5cb', BEST_TIME = 1.6;  // s, duration of the motion to an unsolved part's furthest pose
-const SEEN_THROUGH = 0.5;
+const SEEN_THROUGH = 0.5, BESIDE = 0.3;  // opacities
+const FALL_TIME = 1.2, FALL_REST = 0.6, FALL_WAY = 0.12;  // s, s, and how far parts fall, relative to the assembly's size
 
 export class App {
   constructor(model) {
     this.model = model;
-    this.stage = this.parts = this.trails = this.places = this.section = this.measure = this.tools = null;
+    this.stage = this.parts = this.trails = this.places = this.section = this.measure = this.tools = this.forces = null;
     this.mode = 'disassembly';
     this.time = 0;
     this.playing = false;
@@ -26,6 +28,8 @@ export class App {
     this.clear = new Set();  // made transparent
     this.isolated = null;    // a Set, or null
     this.best = null;        // {index, u}: an unsolved part on the motion to its furthest pose
+    this.fall = null;        // {seconds, motions, arrows}: parts fall that nobody holds, over and over
+    this.cut = new Set();    // what a forced step cuts into
     this.step = -1;
     this.listeners = [];
     this.stale = true;
@@ -42,8 +46,8 @@ export class App {
     for (const listener of this.listeners) listener(what);
   }
 
-  show(stage, parts, trails, places, tools) {
-    Object.assign(this, {stage, parts, trails, places, tools});
+  show(stage, parts, trails, places, tools, forces) {
+    Object.assign(this, {stage, parts, trails, places, tools, forces});
     stage.onFrame = seconds => this.frame(seconds);
     this.paint();
     this.place();
@@ -59,6 +63,7 @@ export class App {
 
   seek(time) {
     this.leaveBest();
+    this.leaveFall();
     this.time = Math.min(this.line.duration, Math.max(0, time));
     this.#timeChanged();
   }
@@ -78,6 +83,7 @@ export class App {
 
   play(on = !this.playing) {
     this.leaveBest();
+    this.leaveFall();
     if (on && this.time >= this.line.duration) this.seek(0);
     this.playing = on && this.line.duration > 0;
     this.tell('play');
@@ -112,6 +118,7 @@ export class App {
   setMode(mode) {
     if (mode === this.mode || this.model.lines[mode].duration === 0) return;
     this.leaveBest();
+    this.leaveFall();
     this.mode = mode;
     this.time = 0;
     this.step = -2;
@@ -126,6 +133,8 @@ export class App {
   #light() {
     this.moving = new Set(this.line.steps[this.step]?.parts);
     this.held = new Set(this.model.held(this.mode, this.step));
+    const forced = this.line.steps[this.step]?.step.forced;
+    this.cut = new Set(forced ? [this.model.index.get(forced.pair[1])] : []);
     this.paint();
   }
 
@@ -272,12 +281,65 @@ export class App {
     this.tell('best');
   }
 
+  /** The time at which the parts of a forced step have come as far as they do without cutting in; null: the plan does not say. */
+  reachedAt(index) {
+    const {plan, lines} = this.model, {step, times} = lines[this.mode].steps[index];
+    const own = this.mode === 'assembly' ? plan.disassembly[plan.disassembly.length - step.step] : step;
+    if (!own?.forced || !own.valid_to) return null;
+    return times[this.mode === 'assembly' ? times.length - 1 - own.valid_to : own.valid_to];
+  }
+
+  /** Shows a forced step where it begins to cut in. */
+  showReached(index) {
+    this.play(false);
+    this.seek(this.reachedAt(index));
+    this.follow();
+    this.places?.show([this.line.steps[index].step.forced.at]);
+  }
+
+  /** Shows what falls in the current step if nobody holds it, and the forces if somebody does; -1: in the pile as a whole. */
+  showFall() {
+    const picture = this.model.statics(this.mode, this.step);
+    if (!picture) return;
+    const {steps} = this.line, {begin, end} = steps[this.step] ?? {begin: 0, end: 0};
+    this.play(false);
+    // All parts of the step are in their places when it begins taken apart, and ends put together.
+    const at = this.mode === 'assembly' ? end : begin, step = this.step;
+    this.time = at;
+    this.#timeChanged();
+    if (this.step !== step) {  // the next step begins at once
+      this.time = at - 1e-6;
+      this.#timeChanged();
+    }
+    const motions = new Map(picture.falls.flatMap(fall => fall.parts.map(i => [i, fall])));
+    const hand = picture.when === 'during' ? new Set(steps[this.step]?.parts) : new Set();  // these are not put in yet
+    this.fall = {...picture, seconds: 0, motions, hand};
+    this.forces?.show(picture.arrows);
+    this.stale = true;
+    this.paint();
+    this.#showTrails();
+    this.tell('fall');
+  }
+
+  leaveFall() {
+    this.places?.show([]);
+    if (!this.fall) return;
+    this.fall = null;
+    this.forces?.show([]);
+    this.stale = true;
+    this.paint();
+    this.#showTrails();
+    this.tell('fall');
+  }
+
   // The scene
 
   opacity(i) {
     if (this.hidden.has(i) || (this.isolated && !this.isolated.has(i))) return 0;
     const presence = this.model.presence(i, this.mode, this.time, this.fading);
     if (this.best?.through.has(i)) return SEEN_THROUGH;
+    if (this.fall?.hand.has(i)) return Parts.ghostly(presence);
+    if (this.fall?.motions.size > 0 && !this.fall.motions.has(i)) return BESIDE * presence;
     const through = this.clear.has(i) || (this.best && i !== this.best.index && !this.best.blockers.has(i));
     return through ? Parts.ghostly(presence) : presence;
   }
@@ -295,6 +357,8 @@ export class App {
         screwInterpolate(this.pose, best.from, 0, best.unsolved.best_pose, 0, u * u * (3 - 2 * u));
       } else {
         model.poseOf(i, this.mode, this.time, this.pose);
+        const motion = this.fall?.motions.get(i);
+        if (motion) fallen(this.pose, motion, this.#fallen());
       }
       const share = lies.any ? lies.share(i, this.time) : 0;
       parts.move(i, this.pose, this.explode, !lies.any || share === 0 ? null : share === 1 ? this.lies : partly(this.waits, this.lies, share));
@@ -302,11 +366,18 @@ export class App {
     }
     this.trails.lie(this.lies);
     this.places.lie(this.lies);
+    this.forces.lie(this.lies);
     this.section?.lie(this.lies);
     this.tools.lie(this.lies);
     this.tools.place(this.time, !best && this.explode === 0);
     this.stale = false;
     this.stage.invalidate(true);
+  }
+
+  /** How far along their motion falling parts are now: faster and faster, for as long as the motion is small, and a rest. */
+  #fallen() {
+    const u = Math.min(1, this.fall.seconds / FALL_TIME);
+    return u * u * FALL_WAY * this.model.size;
   }
 
   paint() {
@@ -315,6 +386,7 @@ export class App {
       const body = this.parts.bodies[index];
       body.setColour(this.model.colour(index, this.colours));
       if (this.best?.blockers.has(index)) body.setGlow(AMBER, 0.45);
+      else if (this.cut.has(index)) body.setGlow(AMBER, 0.3);
       else if (this.held.has(index)) body.setGlow(HELD, 0.55);
       else if (index === this.selected) body.setGlow('#ffffff', 0.1);
       else if (index === this.hovered) body.setGlow('#ffffff', 0.16);
@@ -327,7 +399,7 @@ export class App {
   #showTrails() {
     if (!this.trails) return;
     let indices = [];
-    if (!this.best && this.explode === 0) {
+    if (!this.best && !this.fall && this.explode === 0) {
       if (this.trailing === 'step' && this.step >= 0) indices = [this.step];
       if (this.trailing === 'all') indices = this.line.steps.map((_, i) => i);
     }
@@ -348,6 +420,10 @@ export class App {
     }
     if (this.best && this.best.u < 1) {
       this.best.u = Math.min(1, this.best.u + seconds / BEST_TIME);
+      this.stale = true;
+    }
+    if (this.fall && this.fall.motions.size > 0) {
+      this.fall.seconds = (this.fall.seconds + seconds) % (FALL_TIME + FALL_REST);
       this.stale = true;
     }
     if (this.stale) this.place();

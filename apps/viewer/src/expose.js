@@ -34,8 +34,13 @@ export function expose(app, display) {
     section: () => ({axis: app.section.axis, share: app.section.share, flipped: app.section.flipped}),
     cut: axis => app.cut(axis),
     notesYaml: () => app.notes.yaml(),
+    loadNotes: yaml => app.notes.load(yaml),
     /** Where a point of a part is on the screen, CSS pixels of the scene. */
     onScreen: (name, point) => { now(); return app.stage.onScreen(app.parts.shownPoint(index(name), point).map((x, k) => x - model.origin[k])); },
+    /** What falls, and the arrows of forces; null: nothing is shown of it. */
+    fall: () => app.fall && {parts: [...app.fall.motions.keys()].map(i => model.parts[i].name), arrows: app.forces.shown(), seconds: app.fall.seconds},
+    /** Stops the falling motion at a time, for pictures. */
+    fallAt: seconds => { app.fall.seconds = seconds; app.place(); },
     places: () => app.places.shown(),
     tools: () => { now(); return app.tools.shown(); },
     seek: time => app.seek(time),

@@ -4,6 +4,7 @@ import {readPage} from './data.js';
 import {expose} from './expose.js';
 import {Model} from './model.js';
 import {titleOf} from './plan/words.js';
+import {Forces} from './scene/forces.js';
 import {Measure} from './scene/measure.js';
 import {Parts} from './scene/parts.js';
 import {Picker} from './scene/picker.js';
@@ -69,7 +70,7 @@ function start() {
   if (stage) {
     if (display.up[2] !== 1) stage.setUp(display.up);
     const parts = new Parts(app.model, stage.scene);
-    app.show(stage, parts, new Trails(app.model, stage.scene), new Places(app.model, stage.scene), new Tools(app.model, stage.scene));
+    app.show(stage, parts, new Trails(app.model, stage.scene), new Places(app.model, stage.scene), new Tools(app.model, stage.scene), new Forces(app.model, stage.scene));
     display.apply();
     const section = new Section(stage, parts), measure = new Measure(stage, parts);
     Object.assign(app, {section, measure});

@@ -1,7 +1,9 @@
 // The plan as the page shows it. What is out when, the exploded view and the reasons come with the page; nothing of it is computed here.
 import {byOrder, given, STAYS, TROUBLE} from './plan/colours.js';
 import {readAnimation, stepAt} from './plan/animation.js';
+import {verdictsOf} from './plan/checks.js';
 import {Lies} from './plan/lies.js';
+import {pictureOf} from './plan/statics.js';
 import {isBad, sizeOf} from './plan/words.js';
 
 const FADE = 0.3;  // s
@@ -62,6 +64,12 @@ export class Model {
   /** Parts that must be held in a step that is shown. */
   held(mode, index) {
     return index < 0 ? [] : this.about(mode, index).hold ?? [];
+  }
+
+  /** Forces and falls of a step that is shown, of the pile as a whole before the first step; null: its notes say nothing of them. */
+  statics(mode, index) {
+    const verdicts = index < 0 ? (this.plan.objective?.checks ?? []).map(c => c.plan) : verdictsOf(this.plan, this.lines[mode].steps[index].step, mode);
+    return pictureOf(verdicts, this.index);
   }
 
   colour(i, scheme) {

@@ -17,11 +17,11 @@ export function listen(app, display, help) {
     'e': () => app.setExplode(app.explode > 0 ? 0 : 1), 'f': () => app.fit(), '0': () => from('corner'), '1': () => from('front'),
     '2': () => from('right'), '3': () => from('top'), 't': () => display.nextTrails(), 'c': () => display.nextColours(),
     'r': () => app.setFading(!app.fading), 'g': () => display.ground(), 'u': () => display.turnUp(), 'l': () => display.nextTheme(),
-    'v': () => app.setFollowing(!app.following), 'p': () => printStep(app), 'w': () => app.stage && app.setTools(!app.tools.on), 's': () => app.cut?.(), 'm': () => app.measuring?.(),
+    'd': () => app.fall ? app.leaveFall() : app.showFall(), 'v': () => app.setFollowing(!app.following), 'p': () => printStep(app), 'w': () => app.stage && app.setTools(!app.tools.on), 's': () => app.cut?.(), 'm': () => app.measuring?.(),
     'h': () => selected(i => app.toggle('hidden', i)), 'x': () => selected(i => app.toggle('clear', i)),
     'i': () => app.isolated ? app.isolate(null) : selected(i => app.isolate(new Set([i]))),
     'H': () => app.showAll(), '?': () => help.open ? help.close() : help.showModal(),
-    'Escape': () => { if (app.measure?.on) app.measuring(false); else if (app.best) app.leaveBest(); else app.select(-1); },
+    'Escape': () => { if (app.measure?.on) app.measuring(false); else if (app.best) app.leaveBest(); else if (app.fall) app.leaveFall(); else app.select(-1); },
   };
   document.addEventListener('keydown', event => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;

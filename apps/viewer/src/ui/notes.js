@@ -1,6 +1,6 @@
 // Notes of the user on steps: kept by the browser, written as YAML for the book.
-import {keyOf, notesYaml} from '../plan/notes.js';
-import {titleOf} from '../plan/words.js';
+import {keyOf, notesYaml, readNotes} from '../plan/notes.js';
+import {counted, titleOf} from '../plan/words.js';
 import {element, icon} from './dom.js';
 
 export class Notes {
@@ -23,6 +23,19 @@ export class Notes {
   set(step, text) {
     if (text.trim() === '') delete this.texts[keyOf(step)];
     else this.texts[keyOf(step)] = text;
+    this.#keep();
+  }
+
+  /** Adds the notes of a file to those that are there; on the same step, that of the file counts. Returns what was done, as a sentence. */
+  load(yaml) {
+    const {texts, unknown} = readNotes(this.app.model.plan, yaml);
+    Object.assign(this.texts, texts);
+    this.#keep();
+    const done = `${counted(Object.keys(texts).length, 'note')} read`;
+    return unknown.length === 0 ? `${done}.` : `${done}; ${unknown.length} for steps that this plan does not have: ${unknown.map(n => n.parts.join(', ')).join('; ')}.`;
+  }
+
+  #keep() {
     try {
       localStorage.setItem(this.key, JSON.stringify(this.texts));
     } catch (error) {
@@ -50,6 +63,21 @@ export class Notes {
 export function makeNote(app, step) {
   const {notes} = app, save = element('button.chip', {type: 'button', title: 'Write all notes as YAML, for `dismantle book --notes`', onclick: () => notes.save()});
   const warning = element('p.note', {}, 'This browser does not keep the notes: save them before you leave.');
+  const said = element('p.note', {role: 'status', hidden: true});
+  const file = element('input', {type: 'file', accept: '.yaml,.yml', hidden: true, 'aria-label': 'A file of notes', onchange: async () => {
+    const [chosen] = file.files;
+    if (!chosen) return;
+    try {
+      said.textContent = notes.load(await chosen.text());
+      field.value = notes.of(step);
+    } catch (error) {
+      said.textContent = `${chosen.name}: ${error.message}`;
+    }
+    said.hidden = false;
+    file.value = '';  // the same file may be chosen again
+    refresh();
+  }});
+  const load = element('button.chip', {type: 'button', title: 'Read notes from a file that this page has saved', onclick: () => file.click()}, icon('note'), 'Load notes');
   const refresh = () => {
     save.replaceChildren(icon('note'), `Save ${notes.count === 1 ? 'the note' : `${notes.count} notes`}`);
     save.hidden = notes.count === 0;
@@ -58,5 +86,5 @@ export function makeNote(app, step) {
   const field = element('textarea.note', {rows: 2, placeholder: 'Your note on this step', 'aria-label': 'Your note on this step', value: notes.of(step),
     oninput: () => { notes.set(step, field.value); refresh(); }});
   refresh();
-  return element('div.own', {}, field, save, warning);
+  return element('div.own', {}, field, element('div.chips', {}, save, load, file), warning, said);
 }

@@ -1,4 +1,5 @@
 // Overlays of the scene: the name under the pointer, the selected part, and a note if a pose is that of a failed attempt.
+import {listed} from '../plan/words.js';
 import {element, icon, iconButton, swatch} from './dom.js';
 
 export function makeOverlay(app) {
@@ -23,8 +24,19 @@ export function makeOverlay(app) {
       iconButton('close', 'Select nothing (Esc)', () => app.select(-1))]);
   }
 
+  /** What the arrows are, and what falls. */
+  function showFall() {
+    const {fall} = app, kinds = new Set(fall.arrows.map(a => a.kind)), key = (kind, words) => kinds.has(kind) ? element(`span.force.${kind}`, {}, words) : null;
+    const names = [...fall.motions.keys()].map(i => model.parts[i].name);
+    const words = names.length > 0 ? `Without a hand ${listed(names, 3)} ${names.length > 1 ? 'fall' : 'falls'}: how it begins.` : fall.text;
+    banner.replaceChildren(icon(names.length > 0 ? 'warning' : 'check'), element('span', {title: fall.text}, words),
+      ...[key('weight', 'weight'), key('contact', 'contact'), key('hold', 'hand')].filter(Boolean),
+      element('button.chip', {type: 'button', onclick: () => app.leaveFall()}, 'Back'));
+  }
+
   function showBanner() {
-    banner.hidden = !app.best;
+    banner.hidden = !app.best && !app.fall;
+    if (app.fall) return showFall();
     if (!app.best) return;
     const {unsolved} = app.best;
     const blocked = unsolved.blocked_by.length > 0 ? `, blocked by ${unsolved.blocked_by.slice(0, 3).join(', ')}${unsolved.blocked_by.length > 3 ? ' and others' : ''}` : '';
@@ -35,7 +47,7 @@ export function makeOverlay(app) {
 
   app.on(what => {
     if (what === 'selection' || what === 'seen' || what === 'colours') showCard();
-    if (what === 'best') showBanner();
+    if (what === 'best' || what === 'fall') showBanner();
   });
 
   return {nodes: [banner, card, tip], hover(index, x, y) {

@@ -30,7 +30,7 @@ export function makePanel(app) {
       buttons[i].setAttribute('aria-selected', String(name === key));
     });
   }
-  open(plan.disassembly.length === 0 && problems ? 'problems' : 'steps');
+  open(plan.disassembly.length === 0 && problems && !app.model.statics(app.mode, -1) ? 'problems' : 'steps');
   app.openTab = open;
   return element('aside.panel', {}, element('header.top', {}, element('h1', {title: plan.assembly.source}, titleOf(plan)), summary(app.model)),
     element('div.tabs', {role: 'tablist'}, buttons), tabs.map(([, , pane]) => pane));

@@ -82,6 +82,15 @@ function certificate(app, c) {
     c.numbers ? element('details', {}, element('summary', {}, 'Data'), element('pre', {}, Object.entries(c.numbers).map(([key, value]) => `${key}: ${JSON.stringify(value)}`).join('\n'))) : null);
 }
 
+/** How far the parts of a forced step come, and a button that shows it. */
+function farOf(app, step) {
+  const {how_far: far} = app.model.view.steps.disassembly[step.step - 1];
+  return far ? element('p', {}, `${far}. `, element('button.chip', {type: 'button', onclick: () => {
+    app.setMode('disassembly');
+    app.showReached(app.line.steps.findIndex(s => s.step === step));
+  }}, 'Show how far it comes')) : null;
+}
+
 /** Null when there are no problems. */
 export function makeProblems(app) {
   const {plan} = app.model, certificates = Array.isArray(plan.certificates) ? plan.certificates : [];
@@ -95,7 +104,7 @@ export function makeProblems(app) {
     app.model.view.reasons.map(reason => card(app, reason)),
     forced.map(s => element('article.card', {}, element('header', {}, icon('warning'), element('strong', {}, `Step ${s.step} is forced`)),
       element('p', {}, `${s.moves.map(m => m.part).join(', ')}: no verified path is known. It is taken out where it cuts in least. This step is not verified.`),
-      element('p.bad', {}, forcedWords(s.forced, plan)), s.forced.reason ? element('p.message', {}, s.forced.reason) : null)),
+      element('p.bad', {}, forcedWords(s.forced, plan)), farOf(app, s), s.forced.reason ? element('p.message', {}, s.forced.reason) : null)),
     certificates.map(c => certificate(app, c)),
     silent.length > 0 ? element('article.card', {}, element('header', {}, element('strong', {}, 'Still together')),
       element('p', {}, silent.length > 1 || plan.unsolved.length > 0 ? 'No failed attempt of these is on record:' : 'Not tried:'),

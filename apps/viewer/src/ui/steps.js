@@ -25,6 +25,8 @@ function facts(app, index) {
   if (step.moves.length > 1) row('moves', step.moves.map(m => m.part).join(', '));
   if (step.separates?.some(g => g.length > 1)) row('group', step.separates.filter(g => g.length > 1).map(g => g.join(', ')).join(' | '));
   if (step.forced) row('forced', forcedWords(step.forced, plan));
+  const {how_far: far} = app.model.about(app.mode, index);
+  if (far) row('how far', `${far}.`);
   if (step.contacts?.length > 0) row('touches', step.contacts.join(', '));
   if (step.after?.length > 0) row('after', `step${step.after.length === 1 ? '' : 's'} ${step.after.join(', ')}`);
   if (step.max_penetration !== undefined && !step.forced)
@@ -34,12 +36,20 @@ function facts(app, index) {
   for (const o of step.overlaps ?? [])
     detail('overlap', `${o.pair.join(' and ')}: ${lengthWords(o.assembled, plan)} when assembled, up to ${number(o.depth)} along the way${o.at ? `, at ${o.at.map(number).join(', ')}` : ''}${o.region ? '; only where they overlap when assembled' : ''}`);
   for (const [name, text] of verdicts) if (name !== 'note' && name !== 'not allowed') detail(name, text);
-  const here = addressOfStep(app.mode, step.step);
+  const here = addressOfStep(app.mode, step.step), picture = app.model.statics(app.mode, index);
   return element('div.facts-of', {}, rows.length > 0 ? element('dl.facts', {}, rows) : null,
     element('div.chips', {}, element('a.chip', {href: here, title: 'The address of this step'}, icon('link'), here),
       element('button.chip', {type: 'button', title: 'Print this step (P)', onclick: () => printStep(app)}, icon('print'), 'Print')),
+    element('div.chips', {}, far ? element('button.chip', {type: 'button', onclick: () => app.showReached(index)}, icon('eye'), 'Show how far it comes') : null,
+      picture ? fallButton(app, picture) : null),
     makeNote(app, step),
     element('details', {open: detailsOpen}, element('summary', {onclick: event => { detailsOpen = !event.currentTarget.parentElement.open; }}, 'Details'), element('dl.facts', {}, details)));
+}
+
+/** Plays what falls, and shows the forces on what is held; stops it again. */
+function fallButton(app, {falls}) {
+  const words = falls.length > 0 ? 'Show what falls without hands' : 'Show the forces';
+  return element('button.chip.fall', {type: 'button', title: `${words} (D)`, 'aria-pressed': String(Boolean(app.fall)), onclick: () => app.fall ? app.leaveFall() : app.showFall()}, words);
 }
 
 /** The line of a run: "3–6  4x screw". A click shows its steps, or hides them. */
@@ -121,7 +131,9 @@ export function makeSteps(app) {
     if (what === 'mode' || what === 'colours') make();
     if (what === 'notes') markNotes();
     if (what === 'step') mark();
+    if (what === 'fall') for (const button of pane.querySelectorAll('.fall')) button.setAttribute('aria-pressed', String(Boolean(app.fall)));
   });
+  const pane = element('div.pane', {});
   make();
   const note = element('p.note', {});
   const showNote = () => {
@@ -132,5 +144,8 @@ export function makeSteps(app) {
   };
   app.on(what => { if (what === 'mode') showNote(); });
   showNote();
-  return element('div.pane', {}, note, app.model.plan.disassembly.length === 0 ? element('p.note', {}, 'No part came out: there are no steps.') : null, list);
+  const pile = app.model.statics(app.mode, -1), none = app.model.plan.disassembly.length === 0;
+  pane.append(...[note, pile ? element('article.card', {}, element('p', {}, pile.text), element('div.chips', {}, fallButton(app, pile))) : null,
+    none && !pile ? element('p.note', {}, 'No part came out: there are no steps.') : null, list].filter(Boolean));
+  return pane;
 }

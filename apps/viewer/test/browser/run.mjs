@@ -345,6 +345,67 @@ test('a step shows what moves, what must be held, and the notes; how it was foun
   await page.close();
 });
 
+test('what falls without hands is played with the forces on it, and stops', async () => {
+  const {plan} = shelf, part = plan.remaining[0], [lo, hi] = plan.assembly.bbox, center = lo.map((x, k) => (x + hi[k]) / 2);
+  const picture = {when: 'after', falls: [{parts: [part], center, v: [0, 0, -1], w: [0, 0, 0]}],
+    arrows: [{kind: 'weight', part, at: center, force: [0, 0, -2]}, {kind: 'hold', part, at: center, force: [0, 0, 2]}]};
+  const page = await open(browser, changedPlan(folder, 'stacked_box', 'falls', other => {
+    other.objective = {up: [0, 0, 1], cost: 1, checks: [{type: 'gravity', weight: 1, parameters: {}, cost: 1}]};
+    other.disassembly.forEach((step, k) => {
+      step.checks = [{type: 'gravity', weight: 1, cost: k === 1 ? 1 : 0, allowed: true, ...k === 1 ? {notes: [{kind: 'hold', text: `Hold '${part}'.`, data: {hold: [{part, when: 'after', newton: 2}], hands: 2, picture}}]} : {}}];
+    });
+  })), fall = () => page.evaluate('window.dismantle.fall()');
+  const height = () => page.evaluate(n => window.dismantle.shownPoint(n, [0, 0, 0])[2], part);
+  await page.keyboard.press('d');
+  assert.equal(await fall(), null, 'nothing is said before the first step');
+  for (const [mode, at, keys] of [['disassembly', 1, 2], ['assembly', plan.disassembly.length - 2, 3]]) {
+    await page.evaluate(m => window.dismantle.setMode(m), mode);
+    await page.evaluate(([m, s]) => window.dismantle.seek(window.dismantle.timeOf(m, s, 1)), [mode, at]);
+    const before = await height();
+    await page.getByRole('button', {name: 'Show what falls without hands'}).click({timeout: 5000});
+    const {parts, arrows} = await fall();
+    assert.deepEqual(parts, [part]);
+    assert.deepEqual(arrows.map(a => a.kind), ['weight', 'hold']);
+    assert.ok(distance(arrows[0].at, center) < 1e-9);
+    await page.evaluate('window.dismantle.fallAt(1)');
+    const size = Math.max(...hi.map((x, k) => x - lo[k])), way = before - await height();
+    assert.ok(way > 0.03 * size && way < 0.2 * size, `${mode}: it falls by ${way} of ${size}`);
+    assert.match(await page.locator('.banner').textContent(), new RegExp(`Without a hand ${part} falls.*weight.*hand`));
+    await page.keyboard.press(keys === 2 ? 'd' : 'Escape');
+    assert.equal(await fall(), null);
+    assert.ok(Math.abs(await height() - before) < 1e-9 * size);
+  }
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+});
+
+test('a forced step is shown where it begins to cut in', async () => {
+  const {plan} = shelf, last = plan.disassembly.length - 1, [name, other] = [plan.disassembly[last].moves[0].part, plan.remaining[0]];
+  let reached;
+  const page = await open(browser, changedPlan(folder, 'stacked_box', 'reached', changed_ => {
+    const steps = [changed_.disassembly[last], changed_.assembly_steps[0]];
+    for (const step of steps) step.forced = {pair: [name, other], depth: 0.5, assembled: 0, at: [0, 0, 0], reason: 'it is too wide'};
+    const [{poses}] = steps[0].moves, [first, second] = poses;
+    reached = first.map((x, k) => k < 3 ? 0.75 * x + 0.25 * second[k] : x);
+    steps[0].valid_to = 1;
+    changed_.status = 'forced';
+    const back = steps[1].moves[0].poses;
+    poses.splice(1, 0, reached);
+    back.splice(back.length - 1, 0, reached);
+  }));
+  for (const mode of ['disassembly', 'assembly']) {
+    await page.evaluate(m => window.dismantle.setMode(m), mode);
+    await page.evaluate(([m, s]) => window.dismantle.seek(window.dismantle.timeOf(m, s, 1)), [mode, mode === 'assembly' ? 0 : last]);
+    assert.match(await page.locator('.steps li.open').textContent(), /how far.*comes .* without cutting in/);
+    await page.locator('.steps li.open').getByRole('button', {name: 'Show how far it comes'}).click({timeout: 5000});
+    const seen = await page.evaluate(n => window.dismantle.shownPoint(n, [1, 2, 3]), name);
+    assert.ok(distance(seen, placed(reached, [1, 2, 3])) < 1e-6, `${mode}: ${seen}`);
+    assert.equal((await page.evaluate('window.dismantle.places()')).length, 1);
+  }
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+});
+
 test('the tool of a step is drawn where its note says, follows its part, and can be hidden', async () => {
   const {plan} = shelf, [{part, poses}] = plan.disassembly[1].moves, [box] = [plan.assembly.bbox];
   const origin = box[1], along = poses.at(-1).slice(0, 3).map((x, k) => x - poses[0][k]), far = Math.hypot(...along);
@@ -489,8 +550,18 @@ onPage('notes on steps are kept, belong to the parts, and are written as YAML', 
   assert.equal(await page.locator('.steps li.open textarea').inputValue(), text, 'put together, it is the same step');
   const [saved] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', {name: 'Save the note'}).click()]);
   assert.equal(saved.suggestedFilename(), 'notes.yaml');
-  await page.locator('.steps li.open textarea').fill('');
+  const yaml = await page.evaluate('window.dismantle.notesYaml()'), field = page.locator('.steps li.open textarea');
+  await field.fill('');
   assert.equal(await page.evaluate('window.dismantle.notesYaml()'), 'notes: []\n');
+  // And back from the file.
+  const choose = (name, words) => page.locator('.steps li.open input[type=file]').setInputFiles({name, mimeType: 'application/yaml', buffer: Buffer.from(words)});
+  await choose('notes.yaml', yaml);
+  await page.getByText('1 note read.').waitFor({timeout: 5000});
+  assert.equal(await field.inputValue(), text);
+  assert.equal(await page.evaluate('window.dismantle.notesYaml()'), yaml);
+  await choose('other.yaml', 'notes:\n  - text\n');
+  await page.getByText('other.yaml: line 2').waitFor({timeout: 5000});
+  assert.equal(await page.evaluate('window.dismantle.notesYaml()'), yaml, 'nothing of it is taken');
 });
 
 onPage('help, theme, up axis, fading, paths', () => shelf.file, async page => {
