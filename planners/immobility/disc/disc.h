@@ -13,8 +13,9 @@ struct DiscParams {
   /// helps only for parts with several flat pieces.
   std::int64_t max_discs = 1;
   std::int64_t max_divisions = 60'000;
-  /// Limit of facet tests, after which the proof is given up: 2e8 take about ten seconds. Most proofs need a tenth.
-  std::int64_t max_facets = 200'000'000;
+  /// Limit of facet tests, after which the proof is given up; the search for an exit of the cells counts, too. 6e7 take
+  /// about two seconds. Most proofs need a third.
+  std::int64_t max_facets = 60'000'000;
   static void describe(Schema<DiscParams>& s);
 };
 

@@ -20,6 +20,7 @@ using Vec3 = Eigen::Vector3d;
 
 // Smallest edge of a cell, as a share of the disc's half thickness: with smaller cells a proof needs too many.
 constexpr double kSmallestEdge = 0.25;
+constexpr std::size_t kWorkOfNode = 3;  // visiting a cell of the graph takes as long as testing that many facets
 
 /// A box of positions of the disc's centre.
 struct Cell {
@@ -62,7 +63,9 @@ class Chamber {
     all.in_reach = all.around;
     classify(all);
     Graph graph(all, status(all));
-    for (std::size_t round = 0; round < divisions && clearance_.work() < facets; ++round) {
+    std::size_t walked = 0;
+    const auto work = [&] { return clearance_.work() + kWorkOfNode * (graph.work() + walked); };
+    for (std::size_t round = 0; round < divisions && work() < facets; ++round) {
       if (context.should_stop()) return std::nullopt;
       const std::uint32_t exit = graph.next_exit();
       if (exit == kNoIndex) {
@@ -72,7 +75,7 @@ class Chamber {
       const auto size = [&](std::uint32_t n) { return graph[n].box.size().maxCoeff(); };
       const auto key = [&](std::uint32_t n) { return std::pair(graph.status(n).cost, size(n)); };
       std::uint32_t node = exit;
-      for (std::uint32_t k = exit; k != kNoIndex; k = graph.parent(k))
+      for (std::uint32_t k = exit; k != kNoIndex; k = graph.parent(k), ++walked)
         if (key(k) > key(node)) node = k;
       if (!(graph.status(node).cost > 0)) {
         // All centres on the path are free, and no cell is larger than the disc is thick: most likely a way out.

@@ -33,6 +33,8 @@ class CellGraph {
   }
 
   std::size_t size() const { return nodes_.size(); }
+  /// Number of nodes and links that divisions have touched: a division near the start repairs most of the tree.
+  std::uint64_t work() const { return work_; }
   const Cell& operator[](std::uint32_t node) const { return nodes_[node].cell; }
   Cell& operator[](std::uint32_t node) { return nodes_[node].cell; }
   /// The cell from which this one was reached; kNoIndex for the start.
@@ -104,6 +106,7 @@ class CellGraph {
     }
     for (const std::uint32_t k : lost)
       if (!nodes_[k].reached) reattach(k);
+    work_ += lost.size();
     return first;
   }
 
@@ -149,6 +152,7 @@ class CellGraph {
     const auto& near = nodes_[node].neighbours;
     const auto by = std::find_if(near.begin(), near.end(),
                                  [&](std::uint32_t k) { return nodes_[k].reached && nodes_[k].expanded; });
+    work_ += static_cast<std::uint64_t>(by - near.begin());
     if (by != near.end()) attach(node, *by);
   }
 
@@ -172,6 +176,7 @@ class CellGraph {
 
   std::vector<Node> nodes_;
   std::priority_queue<Entry> queue_;
+  std::uint64_t work_ = 0;
 };
 
 }  // namespace dismantle::immobility
