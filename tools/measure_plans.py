@@ -62,8 +62,9 @@ def placed(pose, p):
 # ---- shapes, from the animation
 
 
-def glb_parts(file):
-    """Vertices and triangles of each part, by name, in the axes of the input."""
+def glb_parts(file, centre=(0, 0, 0)):
+    """Vertices and triangles of each part as assembled, by name, in the axes of the input; `centre`: assembly.center
+    of the plan. Nodes of parts hold their place before the animation begins."""
     data = file.read_bytes()
     length = struct.unpack_from("<I", data, 12)[0]
     scene, blob = json.loads(data[20:20 + length]), 28 + length
@@ -89,7 +90,9 @@ def glb_parts(file):
             order = accessor(primitive["indices"]) if "indices" in primitive else list(range(len(own)))
             triangles += [tuple(len(points) + i for i in order[k:k + 3]) for k in range(0, len(order), 3)]
             points += own
-        parts[node["name"]] = (points, triangles, node)
+        x, y, z, w = node.get("rotation", (0, 0, 0, 1))
+        place = (*(a + b for a, b in zip(node.get("translation", (0, 0, 0)), centre)), w, x, y, z)
+        parts[node["name"]] = ([placed(place, p) for p in points], triangles)
     return parts
 
 
@@ -182,7 +185,7 @@ def operations(plan):
 
 def measure(folder):
     plan = json.loads((folder / "plan.json").read_text())
-    meshes = {name: (points, triangles) for name, (points, triangles, _) in glb_parts(folder / "plan.glb").items()}
+    meshes = glb_parts(folder / "plan.glb", plan["assembly"]["center"])
     plan["centres"] = {name: tuple((min(p[k] for p in pts) + max(p[k] for p in pts)) / 2 for k in range(3))
                        for name, (pts, _) in meshes.items()}
     row = dict.fromkeys(COLUMNS[5:-1], 0)

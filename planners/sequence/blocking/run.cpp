@@ -12,6 +12,7 @@
 #include "blocking/strategies/target_first.h"
 #include "blocking_graph/strategies/free_group.h"
 #include "blocking_graph/strategies/free_part.h"
+#include "blocking_graph/strategies/highest_first.h"
 
 namespace dismantle::blocking {
 
@@ -21,6 +22,7 @@ Run::Run(const BlockingParams& params, const SequenceQuery& query, PathOracle& o
       oracle_(oracle),
       state_(query, overlap_locks(query, oracle, context), params.order, observer, context),
       history_(state_, params),
+      stated_(query.assembly),
       list_(state_, oracle) {
   const Assembly& assembly = query.assembly;
   state_.add_listener(history_);
@@ -40,6 +42,8 @@ void Run::make_strategies() {
   if (straight_) {
     list_.add(std::make_unique<TargetFirst>(state_, *straight_));
     if (params_.upwards == Upwards::on) {
+      for (const DirectionFilter filter : {DirectionFilter::up, DirectionFilter::not_down})
+        list_.add(std::make_unique<HighestFirst>(state_, *straight_, stated_, filter));
       list_.add(std::make_unique<FreePart>(state_, *straight_, DirectionFilter::up));
       list_.add(std::make_unique<FreePart>(state_, *straight_, DirectionFilter::not_down));
       if (params_.groups)

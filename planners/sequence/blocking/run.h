@@ -6,6 +6,7 @@
 
 #include "blocking/blocking.h"
 #include "blocking/path_searcher.h"
+#include "blocking_graph/stated_groups.h"
 #include "blocking_graph/strategy_list.h"
 
 namespace dismantle::blocking {
@@ -25,6 +26,7 @@ class Run {
   PathOracle& oracle_;
   DisassemblyState state_;
   SearchHistory history_;
+  StatedGroups stated_;
   std::unique_ptr<PairSweep> sweep_;          // null without geometry
   std::unique_ptr<StraightMotion> straight_;  // null when switched off, or without geometry
   std::unique_ptr<Lookahead> lookahead_;

@@ -37,6 +37,18 @@ std::optional<std::size_t> StraightMotion::blocker_outside(const GroupState& gro
   return std::nullopt;
 }
 
+std::optional<SubassemblyId> StraightMotion::blocker_of(const GroupState& group, const Subassemblies& ids,
+                                                        std::size_t direction) {
+  std::vector<bool> moves(group.members.size());
+  for (std::size_t k = 0; k < moves.size(); ++k)
+    moves[k] = std::find(ids.begin(), ids.end(), group.members[k]) != ids.end();
+  for (std::size_t k = 0; k < moves.size() && !state_.stop(); ++k)
+    if (moves[k])
+      if (const auto other = blocker_outside(group, k, direction, [&](std::size_t other) { return moves[other]; }))
+        return group.members[*other];
+  return std::nullopt;
+}
+
 std::vector<Subassemblies> StraightMotion::free_groups(const GroupState& group, std::size_t direction) {
   const auto found = blocking::free_groups(group.members.size(), [&](std::size_t member, const auto& inside) {
     return blocker_outside(group, member, direction, inside);

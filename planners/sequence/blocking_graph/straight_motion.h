@@ -41,6 +41,8 @@ class StraightMotion final : public GroupListener {
   std::vector<std::size_t> free_directions(const GroupState& group, SubassemblyId id);
   /// All subassemblies that block `id`.
   Subassemblies blockers(const GroupState& group, SubassemblyId id, std::size_t direction);
+  /// A member of the group that is in the way when `ids` leave together; nullopt: none, or the run is to stop.
+  std::optional<SubassemblyId> blocker_of(const GroupState& group, const Subassemblies& ids, std::size_t direction);
   /// The smallest groups that can move along the direction (see graph.h). Empty when the run is to stop.
   std::vector<Subassemblies> free_groups(const GroupState& group, std::size_t direction);
   /// The blockers along the direction of `directions` that has the fewest.
@@ -52,6 +54,10 @@ class StraightMotion final : public GroupListener {
   /// Length of the path along the direction, from the poses translated by `shift`, until the hulls are apart.
   double length_out(const GroupState& group, const Subassemblies& ids, std::size_t direction,
                     const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
+
+  /// The same by extents along the direction: no shorter.
+  double path_length(const GroupState& group, const Subassemblies& ids, std::size_t direction,
+                     const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
 
   bool admits(DirectionFilter filter, std::size_t direction) const;
   /// Directions of `id`, the one with the shortest path out of the group first.
@@ -80,8 +86,6 @@ class StraightMotion final : public GroupListener {
                                              const std::function<bool(std::size_t)>& inside);
   double gap_of(const Pair& pair) const;
   std::vector<Pair> pairs_of(SubassemblyId moving, SubassemblyId fixed, std::size_t direction) const;
-  double path_length(const GroupState& group, const Subassemblies& ids, std::size_t direction,
-                     const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
   /// How far a group reaches along a direction, in the assembly's frame: farthest subassembly and second farthest.
   struct FarEnd {
     SubassemblyId farthest = 0, next = 0;

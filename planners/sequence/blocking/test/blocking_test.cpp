@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/testing/barred_shaft.h"
@@ -80,6 +84,75 @@ TEST(Blocking, UpwardsLeavesTheBaseToTheEnd) {
     ASSERT_EQ(r.plan.disassembly.size(), n);
     for (std::uint64_t k = 0; k < n; ++k)
       EXPECT_EQ(r.plan.disassembly[k].separates[0][0], "block" + std::to_string(n - 1 - k));
+  }
+}
+
+/// Towers of blocks on a plate, one beside the other. The name of a block is `tower`.`number from below`.
+std::vector<std::pair<std::string, std::vector<fake::Box>>> towers(Rng& rng, std::map<std::string, double>& top) {
+  std::vector<std::pair<std::string, std::vector<fake::Box>>> parts{{"plate", {{{0, 0, -1}, {20, 2, 0}}}}};
+  for (int tower = 0; tower < 4; ++tower) {
+    double z = 0.1;
+    for (std::uint64_t k = 0, n = 2 + rng.below(4); k < n; ++k) {
+      const double height = rng.uniform(0.5, 2), x = 5 * tower;
+      const std::string name = std::to_string(tower) + "." + std::to_string(k);
+      parts.push_back({name, {{{x, 0, z}, {x + 4, 2, z + height}}}});
+      top[name] = z + height;
+      z += height + 0.1;
+    }
+  }
+  return parts;
+}
+
+TEST(Blocking, UpwardsTakesTheHighestFirst) {
+  Rng rng(5);
+  for (int trial = 0; trial < 5; ++trial) {
+    std::map<std::string, double> top;
+    const Assembly assembly = fake::assembly_of(towers(rng, top));
+    BlockingParams params;
+    params.upwards = blocking::Upwards::on;
+    const RunResult r = take_apart(assembly, 1, {}, &helpless, {}, params);
+    ASSERT_EQ(r.outcome, Outcome::solved);
+    double last = std::numeric_limits<double>::infinity();
+    for (const PlanStep& step : r.plan.disassembly) {
+      ASSERT_EQ(step.separates[0].size(), 1u);
+      EXPECT_LE(top.at(step.separates[0][0]), last);
+      last = top.at(step.separates[0][0]);
+    }
+  }
+}
+
+TEST(Blocking, UpwardsTakesOutWholeWhatTheFileBuildsByItself) {
+  Rng rng(6);
+  for (int trial = 0; trial < 5; ++trial) {
+    std::map<std::string, double> top;
+    auto parts = towers(rng, top);
+    parts.push_back({"roof", {{{10, 0, 15}, {14, 2, 16}}}});  // over a group: leaves first
+    Assembly assembly = fake::assembly_of(parts);
+    std::map<std::string, std::set<std::string>> groups;
+    for (const Part& part : assembly.parts)
+      for (const char* tower : {"1", "2"})
+        if (part.name.starts_with(std::string(tower) + ".")) {
+          groups[tower].insert(part.name);
+          assembly.reference_order.push_back({1, {part.id}, tower});
+        }
+    BlockingParams params;
+    params.upwards = blocking::Upwards::on;
+    const RunResult r = take_apart(assembly, 1, {}, &helpless, {}, params);
+    ASSERT_EQ(r.outcome, Outcome::solved);
+    std::set<std::string> whole, apart;
+    for (const PlanStep& step : r.plan.disassembly) {
+      const std::set<std::string> out(step.separates[0].begin(), step.separates[0].end());
+      const std::string tower = out.begin()->substr(0, 1);
+      if (out.size() > 1) {
+        EXPECT_EQ(out, groups.at(tower));
+        whole.insert(tower);
+      } else if (groups.contains(tower)) {
+        EXPECT_TRUE(whole.contains(tower)) << "a part left before its group";
+        apart.insert(tower);
+      }
+    }
+    EXPECT_EQ(whole.size(), 2u);
+    EXPECT_EQ(apart.size(), 2u);
   }
 }
 
