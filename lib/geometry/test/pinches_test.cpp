@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "dismantle/geometry/mesh_measure.h"
@@ -104,6 +107,58 @@ TEST(Pinches, PiecesThatTouchThemselvesPassWithoutPlay) {
   }
   EXPECT_GT(passed, 10);
   EXPECT_GT(refused, 50);
+}
+
+/// A ring of blocks that is cut where its ends meet: `gap` more than a turn (negative: less than one).
+Mesh cut_ring(int blocks, double gap) {
+  Mesh mesh;
+  const double turn = 2 * std::numbers::pi + gap;
+  for (int k = 0; k <= blocks; ++k)
+    for (const double z : {0.0, 1.0})
+      for (const double radius : {2.0, 3.0}) {
+        const double angle = k == blocks && gap == 0 ? 0 : turn * k / blocks;
+        mesh.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+      }
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(blocks); ++k) {
+    const std::uint32_t a = 4 * k, b = a + 4;  // + 1: outside, + 2: above
+    quad(a, b, b + 1, a + 1);
+    quad(a + 2, a + 3, b + 3, b + 2);
+    quad(a, a + 2, b + 2, b);
+    quad(a + 1, b + 1, b + 3, a + 3);
+  }
+  const std::uint32_t end = 4 * static_cast<std::uint32_t>(blocks);
+  quad(0, 1, 3, 2);
+  quad(end, end + 2, end + 3, end + 1);
+  return mesh;
+}
+
+/// Faces of a solid that touch have its material behind them, however long; a wall without thickness has none.
+TEST(Pinches, FacesThatTouchAreNoWallWithoutThickness) {
+  for (const int blocks : {6, 7, 24})
+    for (const double gap : {0.0, -0.3}) {
+      Mesh mesh = cut_ring(blocks, gap);
+      ASSERT_GT(signed_volume(mesh), 0);
+      const Eigen::Quaterniond turn(Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized()));
+      for (Eigen::Vector3d& v : mesh.vertices) v = turn * v;
+      auto solids = split_into_solids(mesh);
+      ASSERT_EQ(solids.size(), 1u);
+      solids[0].measure_thickness(0.5);  // no wall of it is thinner
+      for (const double thickness : solids[0].thickness) EXPECT_GT(thickness, 0.5) << blocks << " blocks, gap " << gap;
+    }
+  Mesh flat = cut_ring(24, -0.3);
+  for (Eigen::Vector3d& v : flat.vertices) v.z() = 0;
+  auto solids = split_into_solids(flat);
+  ASSERT_FALSE(solids.empty());
+  double least = 1;
+  for (geometry::Solid& solid : solids) {
+    solid.measure_thickness(0.9);
+    for (const double thickness : solid.thickness) least = std::min(least, thickness);
+  }
+  EXPECT_LT(least, 1e-12);
 }
 
 }  // namespace

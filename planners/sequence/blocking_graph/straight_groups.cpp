@@ -44,8 +44,8 @@ std::optional<SubassemblyId> StraightMotion::blocker_of(const GroupState& group,
     moves[k] = std::find(ids.begin(), ids.end(), group.members[k]) != ids.end();
   for (std::size_t k = 0; k < moves.size() && !state_.stop(); ++k)
     if (moves[k])
-      if (const auto other = blocker_outside(group, k, direction, [&](std::size_t other) { return moves[other]; }))
-        return group.members[*other];
+      if (const auto found = blocker_outside(group, k, direction, [&](std::size_t other) { return moves[other]; }))
+        return group.members[*found];
   return std::nullopt;
 }
 
