@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "dismantle/testing/shapes.h"
 #include "dismantle/geometry/pair_check.h"
 
@@ -42,6 +44,29 @@ TEST(Sampling, StopsAtWhatTheProofWouldFindToo) {
   }
   EXPECT_GT(beyond, 15);
   EXPECT_GT(within, 15);
+}
+
+/// What slides along a face touches it, up to rounding: no sample of that is deeper than a wall without thickness allows.
+TEST(Sampling, TouchingIsNoPenetration) {
+  Rng rng(23);
+  for (int trial = 0; trial < 40; ++trial) {
+    const Pose turned{Vec3(rng.uniform(-5, 5), rng.uniform(-5, 5), rng.uniform(-5, 5)),
+                      Eigen::Quaterniond(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1), 2).normalized()};
+    const auto block = [&](const Vec3& from, const Vec3& to) {
+      Mesh mesh = shapes::box(from, to);
+      for (Vec3& v : mesh.vertices) v = turned * v;
+      return Solid(mesh);
+    };
+    for (const double depth : {0.0, 1e-6}) {
+      Solid a = block(Vec3(0, 0, -depth), Vec3(1, 1, 1));
+      const Solid b = block(Vec3(-3, -3, -1), Vec3(3, 3, 0));
+      std::fill(a.thickness.begin(), a.thickness.end(), 0.0);
+      const Vec3 along = turned.q * Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), 0);
+      const std::vector<Pose> poses{a.frame, Pose{along, Eigen::Quaterniond::Identity()} * a.frame};
+      const RelativeMotion forward(poses, {b.frame}, a.box), backward({b.frame}, poses, b.box);
+      EXPECT_EQ(sample_beyond(a, b, forward, backward, {0, 0.01}), depth > 0) << trial;
+    }
+  }
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "dismantle/geometry/numerics.h"
+
 namespace dismantle::geometry {
 namespace {
 
@@ -58,9 +60,12 @@ Finding deepest_sample(const Solid& a, const Solid& b, const RelativeMotion& for
 
 bool sample_beyond(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward,
                    const Limits& limits, SampledTimes which) {
+  const double sizes = a.box.size().norm() + b.box.size().norm();
   const auto beyond = [&](const Finding& f, const Eigen::Vector3d& x) {
     const Solid &of = f.of_second ? b : a, &in = f.of_second ? a : b;
-    return f.depth > limits.at(f.thickness) && !limits.exempts(of, f.point, in, x);
+    // Where a wall is without thickness, what touches is no deeper than rounding: that proves nothing.
+    const double rounding = kRounding * (sizes + x.norm());
+    return f.depth > std::max(limits.at(f.thickness), rounding) && !limits.exempts(of, f.point, in, x);
   };
   return sample(a, b, forward, backward, false, which, beyond) || sample(b, a, backward, forward, true, which, beyond);
 }
