@@ -52,8 +52,8 @@ ValidityChecker::Pair& ValidityChecker::pair(const PlacedPart& moving, const Pla
   };
   const auto made = [&](const PlacedPart& of, const PlacedPart& other) {
     const Pose to_part = of.pose.inverse() * other.pose;
-    const GeometryCache::Pair key(field(of.part).mesh(), field(other.part).mesh(), to_part, sampling_, allowance);
-    return *cache_.probes(key, [&] { return make(of, other, to_part); });
+    const GeometryCache::Pair question(field(of.part).mesh(), field(other.part).mesh(), to_part, sampling_, allowance);
+    return *cache_.probes(question, [&] { return make(of, other, to_part); });
   };
   return pairs_.emplace(key, Pair{made(moving, fixed), made(fixed, moving)}).first->second;
 }
