@@ -114,6 +114,12 @@ bool fulfilled(const Disassembly& disassembly, const Constraints& constraints) {
   return open_groups(disassembly, constraints).empty();
 }
 
+void set_units(Assembly& assembly, const Constraints& constraints) {
+  const std::vector<PartId> sets = kept_sets(assembly.parts.size(), constraints);
+  for (Part& part : assembly.parts)
+    if (part.unit.reset(); std::count(sets.begin(), sets.end(), sets[part.id]) > 1) part.unit = sets[part.id];
+}
+
 std::vector<PartId> kept_sets(std::size_t parts, const Constraints& constraints) {
   std::vector<PartId> set(parts);
   std::iota(set.begin(), set.end(), PartId{0});

@@ -42,6 +42,7 @@ struct Part {
   bool open = false;                ///< the surface has a boundary and is a wall; `volume` is then an estimate, or 0
   std::optional<double> density{};  ///< g/cm3, as its file states it
   std::optional<PartKind> kind{};   ///< none: not looked at
+  std::optional<PartId> unit{};     ///< the same for all parts that are kept together, as one body; none: by itself
 };
 
 /// From input units to assembly units: internal = scale * (input - center).

@@ -33,6 +33,8 @@ struct Constraints {
 /// By part, for `parts` parts: a representative of the set of parts that are kept together with it. Lists of `together`
 /// that share a part form one set.
 DISMANTLE_API std::vector<PartId> kept_sets(std::size_t parts, const Constraints& constraints);
+/// Sets Part::unit of all parts.
+DISMANTLE_API void set_units(Assembly& assembly, const Constraints& constraints);
 /// True for one part, or for parts of one set that is kept together: such a group is not taken apart.
 DISMANTLE_API bool kept_together(std::span<const PartId> group, const Constraints& constraints);
 /// Do `base` and `before` let these parts leave the rest of their group?

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "dismantle/constraints.h"
 #include "dismantle/errors.h"
 #include "dismantle/preparation/declared_overlaps.h"
 #include "dismantle/preparation/flexible_parts.h"
@@ -82,6 +83,19 @@ void set_kinds_of(const Plan& plan, Assembly& assembly) {
   for (Part& part : assembly.parts) part.kind = planned.at(part.name)->kind;
 }
 
+/// What the plan keeps together is one body.
+void set_units_of(const Plan& plan, Assembly& assembly) {
+  std::map<std::string, PartId> ids;
+  for (const Part& part : assembly.parts) ids[part.name] = part.id;
+  Constraints kept;
+  for (const std::vector<std::string>& list : plan.asked.together) {
+    kept.together.emplace_back();
+    for (const std::string& name : list)
+      if (const auto id = ids.find(name); id != ids.end()) kept.together.back().push_back(id->second);
+  }
+  set_units(assembly, kept);
+}
+
 }  // namespace
 
 Assembly assembly_of_plan(const Plan& plan, InputParts input, const std::string& source, RunContext& context) {
@@ -105,6 +119,7 @@ Assembly assembly_of_plan(const Plan& plan, InputParts input, const std::string&
   set_normalization(assembly, {plan.assembly.scale, plan.assembly.center});
   recognise_flexible_of(plan, assembly, context);
   set_kinds_of(plan, assembly);
+  set_units_of(plan, assembly);
   for (const PlanOverlap& o : plan.assembly.overlaps)
     if (o.declared && !o.flexible) declare_overlap(assembly, o.a, o.b, *o.declared);
   return assembly;

@@ -217,10 +217,19 @@ static Disassembly steps_of(const Plan& plan, const Assembly& assembly, const Pl
   return disassembly_of(plan, assembly, request.resume_steps);
 }
 
+/// With what is kept together as one body each.
+static std::shared_ptr<const Assembly> with_units(std::shared_ptr<const Assembly> assembly,
+                                                  const Constraints& constraints) {
+  if (constraints.together.empty()) return assembly;
+  auto out = std::make_shared<Assembly>(*assembly);  // meshes are shared
+  set_units(*out, constraints);
+  return out;
+}
+
 RunResult Session::plan(const LoadedAssembly& loaded, const std::optional<RunContext>& given,
                         const PlanRequest& request) const {
   RunContext context = given ? *given : this->context();
-  const auto assembly = declared(loaded);
+  auto assembly = declared(loaded);
   RunOptions options = options_for(loaded, *assembly, request.part);
   if (request.resume != nullptr) options.resume = steps_of(*request.resume, *assembly, request);
   if (request.steps != nullptr) {
@@ -232,6 +241,7 @@ RunResult Session::plan(const LoadedAssembly& loaded, const std::optional<RunCon
   const bool keeps = setup.sequence_planner->traits().keeps_constraints;
   const auto components = kept_components(*assembly, config(), keeps, options.resume ? &*options.resume : nullptr);
   keep_together(components, options.constraints);
+  assembly = with_units(std::move(assembly), options.constraints);
   RunResult result = run(*assembly, setup, options, context, request.on_step);
   result.plan.assembly.components = plan_components(components, result.plan);
   return result;

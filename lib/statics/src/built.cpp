@@ -39,6 +39,7 @@ BuiltPiles::BuiltPiles(const Assembly& assembly, StabilityOptions options) : opt
     meshes_.push_back(p.mesh);
     volumes_.push_back(p.volume);
     fasteners_.push_back(is_fastener(p));
+    units_.push_back(p.unit);
     boxes_.push_back(p.mesh->box());
     all.extend(boxes_.back());
   }
@@ -50,8 +51,8 @@ BuiltPiles::BuiltPiles(const Assembly& assembly, StabilityOptions options) : opt
       const double gap = kPlay * options_.touching * std::min(boxes_[a].size().norm(), boxes_[b].size().norm());
       Aabb near = boxes_[a];
       near.inflate(gap);
-      if (!near.overlaps(boxes_[b])) continue;
-      const bool bond = is_bonded(assembly, a, b, gap / (2 * kPlay));
+      if (!one_unit(a, b) && !near.overlaps(boxes_[b])) continue;
+      const bool bond = one_unit(a, b) || is_bonded(assembly, a, b, gap / (2 * kPlay));
       const InitialOverlap* overlap = assembly.overlap_of(a, b);
       const double depth = overlap == nullptr ? 0 : overlap->depth;
       neighbours_[a].push_back({b, bond, depth});
@@ -65,8 +66,12 @@ bool BuiltPiles::is_of(const Assembly& assembly) const {
   return std::equal(meshes_.begin(), meshes_.end(), assembly.parts.begin(), assembly.parts.end(),
                     [](const auto& mesh, const Part& p) { return mesh == p.mesh; }) &&
          std::equal(fasteners_.begin(), fasteners_.end(), assembly.parts.begin(), assembly.parts.end(),
-                    [](bool fastener, const Part& p) { return fastener == is_fastener(p); });
+                    [](bool fastener, const Part& p) { return fastener == is_fastener(p); }) &&
+         std::equal(units_.begin(), units_.end(), assembly.parts.begin(), assembly.parts.end(),
+                    [](const auto& unit, const Part& p) { return unit == p.unit; });
 }
+
+bool BuiltPiles::one_unit(PartId a, PartId b) const { return units_[a] && units_[a] == units_[b]; }
 
 const Shape& BuiltPiles::shape(PartId part) const {
   if (!shapes_[part]) shapes_[part] = std::make_unique<const Shape>(*meshes_[part]);
@@ -166,6 +171,10 @@ BuiltPile BuiltPiles::pile(std::span<const PlacedPart> parts, const Vec3& up, Ga
   DisjointSets rigid(count);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = i + 1; j < count; ++j) {
+      if (one_unit(parts[i].part, parts[j].part)) {
+        rigid.join(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+        continue;
+      }
       if (!boxes[i].overlaps(boxes[j])) continue;
       std::vector<Contact> own = contacts(parts[i], parts[j], gaps);
       if (own.empty()) continue;
@@ -262,8 +271,8 @@ std::size_t BuiltPiles::unsupported(std::span<const PlacedPart> parts, std::span
       for (const Neighbour& n : neighbours_[body[i].part]) {
         const PlacedPart* other = there[n.part];
         if (other == nullptr || seen[n.part] || !n.bonded) continue;
-        if (in_place ? as_assembled(body[i].part, n.part, Gaps::tight).empty()
-                     : contacts(body[i], *other, Gaps::tight).empty())
+        if (!one_unit(body[i].part, n.part) && (in_place ? as_assembled(body[i].part, n.part, Gaps::tight).empty()
+                                                         : contacts(body[i], *other, Gaps::tight).empty()))
           continue;
         seen[n.part] = true;
         body.push_back(*other);

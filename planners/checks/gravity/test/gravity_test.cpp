@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "dismantle/constraints.h"
 #include "dismantle/run_context.h"
 #include "dismantle/statics/step_proof.h"
 #include "dismantle/testing/shapes.h"
@@ -145,6 +146,18 @@ TEST(Gravity, OtherKindsAreAnotherAssembly) {
   scene.assembly.parts[1].kind.emplace();
   scene.assembly.parts[1].kind->kind = "screw";
   EXPECT_EQ(gravity.judge(scene.question(), RunContext{}).cost, 0);
+}
+
+TEST(Gravity, WhatIsKeptTogetherIsOneBody) {
+  // Two blocks in the air, one of them over the plate by far: by themselves both fall.
+  Scene scene({block(0, 0, 0, 4, 4, 1), block(0, 0, 1, 1, 1, 1), block(0, 0, 3, 1, 1, 1), block(1, 0, 5, 1, 1, 1)});
+  EXPECT_EQ(Gravity().judge(scene.question(), RunContext{}).cost, 2);
+  EXPECT_EQ(Gravity().estimate(scene.question(), RunContext{}).cost, 2);
+  Constraints constraints;
+  constraints.together = {{1, 2, 3}};
+  set_units(scene.assembly, constraints);
+  EXPECT_EQ(Gravity().judge(scene.question(), RunContext{}).cost, 0);
+  EXPECT_EQ(Gravity().estimate(scene.question(), RunContext{}).cost, 0);
 }
 
 TEST(Gravity, TooFewHandsAreARefusal) {

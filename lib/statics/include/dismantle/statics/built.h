@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -76,6 +77,7 @@ class DISMANTLE_API BuiltPiles {
   const std::vector<Contact>& as_assembled(PartId a, PartId b, Gaps gaps) const;
   double touching(Gaps gaps) const;
   bool bonded(PartId a, PartId b) const;
+  bool one_unit(PartId a, PartId b) const;
   bool stands(std::vector<PlacedPart> body, std::vector<PlacedPart> near, Eigen::Vector3d up, double table,
               bool in_place) const;
   bool stands_on(std::span<const PlacedPart> unit, std::span<const PlacedPart> near, const Eigen::Vector3d& up,
@@ -90,6 +92,7 @@ class DISMANTLE_API BuiltPiles {
   std::vector<Aabb> boxes_;
   std::vector<double> volumes_;
   std::vector<bool> fasteners_;
+  std::vector<std::optional<PartId>> units_;  // Part::unit
   std::vector<std::vector<Neighbour>> neighbours_;  // by part: those whose boxes are near, ascending
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<const Shape>> shapes_;
