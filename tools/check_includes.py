@@ -4,6 +4,8 @@
 - core <- process; core <- parallel <- geometry <- fasteners (<- tools), verification <- preparation, plan_io <- book, orders, serve, engine <- host <- session <- apps, bench: no #include against the arrows;
 - a plugin includes core, geometry, the plugin sdk and the shared libraries of its kind (folders without a plugin: KIND/common and
   others that build a library), an importer also process, a step check also statics, fasteners or tools, a sequence planner also ordering; never another plugin;
+- headers of a library are included by the name of its folder, "dismantle/geometry/x.h"; those of KIND/common by KIND; those of core,
+  lib/parallel and the plugin sdk, which authors of plugins include, as "dismantle/x.h";
 - core has at most 2500 lines of code (comments and empty lines are free), a file 400, a class 40 methods (a rough count of the declarations in its body)."""
 import argparse
 import os
@@ -61,7 +63,7 @@ def sources(root, folder):
 def is_test(file):
     parts = file.split("/")
     return parts[0] == "tests" or parts[-1].endswith("_test.cpp") or any(
-        p in ("test", "tests", "test_support") for p in parts[:-1])
+        p in ("test", "test_support") for p in parts[:-1])
 
 
 def kind_of(file):
@@ -165,6 +167,11 @@ def check(root):
 
     problems = []
     for included, found in include_path.items():
+        place, folder = place_of(found[0]), os.path.dirname(included)
+        if place not in ("core", "lib/parallel", "plugins/sdk", None):
+            name = os.path.basename(os.path.dirname(place) if os.path.basename(place) == "common" else place)
+            if folder != f"dismantle/{name}":
+                problems.append(f'{found[0]}: included as "{included}", not as "dismantle/{name}/..."')
         if len(found) > 1:
             problems.append(f'"{included}" is the name of {" and of ".join(found)}')
     for f in files:

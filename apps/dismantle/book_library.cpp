@@ -1,5 +1,5 @@
 #ifdef DISMANTLE_BOOK_LIBRARY
-#include "dismantle/book_library.h"
+#include "book_library.h"
 
 #include <dlfcn.h>
 #include <fmt/format.h>

@@ -7,17 +7,17 @@
 #include <optional>
 #include <utility>
 
-#include "dismantle/command.h"
-#include "dismantle/console.h"
+#include "command.h"
+#include "console.h"
 #include "dismantle/errors.h"
 #include "dismantle/orders/access.h"
 #include "dismantle/plan_io/csv_text.h"
 #include "dismantle/plan_io/text_columns.h"
-#include "dismantle/plan_report.h"
 #include "dismantle/preparation/name_pattern.h"
 #include "dismantle/session/objective.h"
-#include "dismantle/settings.h"
-#include "dismantle/stopped.h"
+#include "plan_report.h"
+#include "settings.h"
+#include "stopped.h"
 
 namespace dismantle::app {
 namespace {

@@ -3,15 +3,15 @@
 
 #include <charconv>
 
+#include "command.h"
+#include "console.h"
 #include "dismantle/bench/campaign.h"
 #include "dismantle/bench/slurm.h"
 #include "dismantle/bench/suite.h"
 #include "dismantle/bench/trial.h"
-#include "dismantle/command.h"
-#include "dismantle/console.h"
 #include "dismantle/errors.h"
-#include "dismantle/interrupt.h"
-#include "dismantle/settings.h"
+#include "interrupt.h"
+#include "settings.h"
 
 namespace dismantle::app {
 namespace {

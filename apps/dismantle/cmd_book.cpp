@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <utility>
 
-#include "dismantle/command.h"
-#include "dismantle/console.h"
+#include "command.h"
+#include "console.h"
 #include "dismantle/errors.h"
-#include "dismantle/frame_options.h"
 #include "dismantle/host/config_node.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/write_file.h"
-#include "dismantle/settings.h"
-#include "dismantle/stopped.h"
+#include "frame_options.h"
+#include "settings.h"
+#include "stopped.h"
 #ifdef DISMANTLE_BOOK_LIBRARY
-#include "dismantle/book_library.h"
+#include "book_library.h"
 #endif
 
 namespace dismantle::app {

@@ -6,16 +6,16 @@
 #include <utility>
 
 #ifdef DISMANTLE_BOOK_LIBRARY
-#include "dismantle/book_library.h"
+#include "book_library.h"
 #endif
-#include "dismantle/command.h"
-#include "dismantle/console.h"
+#include "command.h"
+#include "console.h"
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/preparation/check_assembly.h"
 #include "dismantle/session/objective.h"
-#include "dismantle/settings.h"
-#include "dismantle/stopped.h"
+#include "settings.h"
+#include "stopped.h"
 
 namespace dismantle::app {
 namespace {

@@ -1,8 +1,8 @@
 // dismantle compare A B
 #include <fmt/format.h>
 
-#include "dismantle/command.h"
-#include "dismantle/console.h"
+#include "command.h"
+#include "console.h"
 #include "dismantle/orders/agreement.h"
 #include "dismantle/plan_io/plan_file.h"
 

@@ -1,8 +1,8 @@
 // dismantle completion bash|zsh|fish, and the manual page for the build
 #include <fmt/format.h>
 
-#include "dismantle/command.h"
-#include "dismantle/completion.h"
+#include "command.h"
+#include "completion.h"
 
 namespace dismantle::app {
 

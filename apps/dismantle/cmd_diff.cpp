@@ -3,14 +3,14 @@
 
 #include <optional>
 
-#include "dismantle/command.h"
-#include "dismantle/console.h"
+#include "command.h"
+#include "console.h"
 #include "dismantle/errors.h"
-#include "dismantle/revision_report.h"
 #include "dismantle/session/revision.h"
 #include "dismantle/session/session.h"
-#include "dismantle/settings.h"
-#include "dismantle/stopped.h"
+#include "revision_report.h"
+#include "settings.h"
+#include "stopped.h"
 
 namespace dismantle::app {
 namespace {

@@ -6,19 +6,19 @@
 #include <numeric>
 #include <set>
 
-#include "dismantle/command.h"
-#include "dismantle/console.h"
+#include "command.h"
+#include "console.h"
 #include "dismantle/errors.h"
 #include "dismantle/orders/order.h"
-#include "dismantle/plan_files.h"
 #include "dismantle/plan_io/step_numbers.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/write_file.h"
-#include "dismantle/plan_report.h"
 #include "dismantle/session/edit.h"
 #include "dismantle/session/session.h"
-#include "dismantle/settings.h"
-#include "dismantle/stopped.h"
+#include "plan_files.h"
+#include "plan_report.h"
+#include "settings.h"
+#include "stopped.h"
 
 namespace dismantle::app {
 namespace {

@@ -1,13 +1,13 @@
 // dismantle explain PLAN.json
 #include <fmt/format.h>
 
-#include "dismantle/command.h"
-#include "dismantle/console.h"
+#include "command.h"
+#include "console.h"
 #include "dismantle/errors.h"
-#include "dismantle/frame_options.h"
 #include "dismantle/host/suggest.h"
 #include "dismantle/plan_io/explain.h"
 #include "dismantle/session/session.h"
+#include "frame_options.h"
 
 namespace dismantle::app {
 namespace {

@@ -6,20 +6,20 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "dismantle/command.h"
-#include "dismantle/console.h"
+#include "command.h"
+#include "console.h"
 #include "dismantle/errors.h"
-#include "dismantle/frame_options.h"
 #include "dismantle/plan_io/animation.h"
 #include "dismantle/plan_io/exports.h"
 #include "dismantle/plan_io/job_list.h"
 #include "dismantle/plan_io/robot_exports.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/process/child.h"
-#include "dismantle/settings.h"
-#include "dismantle/stopped.h"
+#include "frame_options.h"
+#include "settings.h"
+#include "stopped.h"
 #ifdef DISMANTLE_BOOK_LIBRARY
-#include "dismantle/book_library.h"
+#include "book_library.h"
 #endif
 
 namespace dismantle::app {

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
-#include "dismantle/command.h"
-#include "dismantle/console.h"
+#include "command.h"
+#include "console.h"
 #include "dismantle/host/describe.h"
-#include "dismantle/plugin_template.h"
-#include "dismantle/plugins_check.h"
-#include "dismantle/settings.h"
+#include "plugin_template.h"
+#include "plugins_check.h"
+#include "settings.h"
 
 namespace dismantle::app {
 namespace {

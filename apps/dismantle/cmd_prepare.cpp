@@ -3,13 +3,13 @@
 
 #include <filesystem>
 
-#include "dismantle/command.h"
-#include "dismantle/console.h"
+#include "command.h"
+#include "console.h"
 #include "dismantle/errors.h"
 #include "dismantle/preparation/write_prepared.h"
-#include "dismantle/report_text.h"
-#include "dismantle/settings.h"
-#include "dismantle/stopped.h"
+#include "report_text.h"
+#include "settings.h"
+#include "stopped.h"
 
 namespace dismantle::app {
 namespace {

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <map>
 
-#include "dismantle/command.h"
-#include "dismantle/console.h"
+#include "command.h"
+#include "console.h"
 #include "dismantle/errors.h"
 #include "dismantle/orders/agreement.h"
 #include "dismantle/orders/replay.h"
 #include "dismantle/plan_io/plan_file.h"
-#include "dismantle/settings.h"
-#include "dismantle/stopped.h"
+#include "settings.h"
+#include "stopped.h"
 
 namespace dismantle::app {
 namespace {

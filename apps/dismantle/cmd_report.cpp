@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
+#include "command.h"
+#include "console.h"
 #include "dismantle/bench/report.h"
-#include "dismantle/command.h"
-#include "dismantle/console.h"
 #include "dismantle/errors.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/write_file.h"
-#include "dismantle/settings.h"
+#include "settings.h"
 
 namespace dismantle::app {
 namespace {

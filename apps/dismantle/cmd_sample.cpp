@@ -4,12 +4,12 @@
 #include <charconv>
 #include <stdexcept>
 
-#include "dismantle/command.h"
-#include "dismantle/console.h"
+#include "command.h"
+#include "console.h"
 #include "dismantle/errors.h"
-#include "dismantle/samples.h"
-#include "dismantle/settings.h"
 #include "dismantle/host/suggest.h"
+#include "dismantle/samples/samples.h"
+#include "settings.h"
 
 namespace dismantle::app {
 namespace {

@@ -6,13 +6,13 @@
 
 #include <cstdlib>
 
-#include "dismantle/command.h"
-#include "dismantle/console.h"
+#include "command.h"
+#include "console.h"
 #include "dismantle/errors.h"
-#include "dismantle/interrupt.h"
 #include "dismantle/serve/server.h"
 #include "dismantle/session/products.h"
-#include "dismantle/settings.h"
+#include "interrupt.h"
+#include "settings.h"
 
 namespace dismantle::app {
 namespace {

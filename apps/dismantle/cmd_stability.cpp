@@ -10,17 +10,17 @@
 #include <optional>
 #include <utility>
 
-#include "dismantle/command.h"
-#include "dismantle/console.h"
+#include "command.h"
+#include "console.h"
 #include "dismantle/errors.h"
 #include "dismantle/geometry/direction.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/preparation/name_pattern.h"
 #include "dismantle/session/objective.h"
-#include "dismantle/settings.h"
-#include "dismantle/stability_file.h"
 #include "dismantle/statics/stability.h"
-#include "dismantle/stopped.h"
+#include "settings.h"
+#include "stability_file.h"
+#include "stopped.h"
 
 namespace dismantle::app {
 namespace {

@@ -1,13 +1,13 @@
 // dismantle verify PLAN.json
-#include "dismantle/command.h"
-#include "dismantle/console.h"
+#include "command.h"
+#include "console.h"
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/summary.h"
-#include "dismantle/plan_report.h"
-#include "dismantle/report_text.h"
-#include "dismantle/settings.h"
-#include "dismantle/stability_file.h"
-#include "dismantle/stopped.h"
+#include "plan_report.h"
+#include "report_text.h"
+#include "settings.h"
+#include "stability_file.h"
+#include "stopped.h"
 
 namespace dismantle::app {
 namespace {

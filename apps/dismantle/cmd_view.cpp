@@ -1,13 +1,13 @@
 // dismantle view PLAN.json
 #include <fmt/format.h>
 
-#include "dismantle/command.h"
-#include "dismantle/console.h"
+#include "command.h"
+#include "console.h"
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/write_file.h"
-#include "dismantle/settings.h"
-#include "dismantle/stopped.h"
+#include "settings.h"
+#include "stopped.h"
 
 namespace dismantle::app {
 namespace {

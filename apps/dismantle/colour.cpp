@@ -1,4 +1,4 @@
-#include "dismantle/colour.h"
+#include "colour.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

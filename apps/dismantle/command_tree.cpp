@@ -1,4 +1,4 @@
-#include "dismantle/command_tree.h"
+#include "command_tree.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "dismantle/completion.h"
+#include "completion.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "dismantle/command_tree.h"
+#include "command_tree.h"
 
 namespace dismantle::app {
 

@@ -1,4 +1,4 @@
-#include "dismantle/console.h"
+#include "console.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <map>
 
-#include "dismantle/colour.h"
+#include "colour.h"
 
 namespace dismantle::app {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "dismantle/progress.h"
 #include "dismantle/run_context.h"
+#include "progress.h"
 
 namespace dismantle::app {
 

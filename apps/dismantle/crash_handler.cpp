@@ -1,4 +1,4 @@
-#include "dismantle/crash_handler.h"
+#include "crash_handler.h"
 
 #include <dlfcn.h>
 #include <execinfo.h>
@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/command.h"
+#include "command.h"
 
 namespace dismantle::app {
 namespace {

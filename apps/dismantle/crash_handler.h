@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/host/registry.h"
-#include "dismantle/run_notes.h"
+#include "run_notes.h"
 
 namespace dismantle::app {
 

@@ -1,4 +1,4 @@
-#include "dismantle/each_product.h"
+#include "each_product.h"
 
 #include <fmt/format.h>
 #include <signal.h>
@@ -8,15 +8,15 @@
 #include <memory>
 #include <optional>
 
-#include "dismantle/command.h"
+#include "command.h"
 #include "dismantle/errors.h"
-#include "dismantle/interrupt.h"
 #include "dismantle/plan_io/csv_text.h"
 #include "dismantle/plan_io/text_columns.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/process/child.h"
 #include "dismantle/session/products.h"
-#include "dismantle/settings.h"
+#include "interrupt.h"
+#include "settings.h"
 
 namespace dismantle::app {
 namespace {

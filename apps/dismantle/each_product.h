@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/console.h"
+#include "console.h"
 #include "dismantle/session/session.h"
 
 namespace dismantle::app {

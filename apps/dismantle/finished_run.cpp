@@ -1,9 +1,9 @@
-#include "dismantle/finished_run.h"
+#include "finished_run.h"
 
 #include <algorithm>
 #include <sstream>
 
-#include "dismantle/console.h"
+#include "console.h"
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/read_file.h"
 #include "dismantle/plan_io/write_file.h"

@@ -1,4 +1,4 @@
-#include "dismantle/frame_options.h"
+#include "frame_options.h"
 
 #include "dismantle/geometry/direction.h"
 #include "dismantle/geometry/length_unit.h"

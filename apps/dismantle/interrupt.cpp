@@ -1,4 +1,4 @@
-#include "dismantle/interrupt.h"
+#include "interrupt.h"
 
 #include <signal.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <string_view>
 
-#include "dismantle/command.h"
+#include "command.h"
 
 namespace dismantle::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "dismantle/isolation.h"
+#include "isolation.h"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -12,7 +12,7 @@
 #include <new>
 #include <system_error>
 
-#include "dismantle/command.h"
+#include "command.h"
 #include "dismantle/errors.h"
 
 namespace dismantle::app {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "dismantle/process/child.h"
-#include "dismantle/run_notes.h"
+#include "run_notes.h"
 
 namespace dismantle::app {
 

@@ -11,13 +11,13 @@
 #include <string_view>
 #include <vector>
 
-#include "dismantle/colour.h"
-#include "dismantle/command.h"
-#include "dismantle/console.h"
-#include "dismantle/crash_handler.h"
+#include "colour.h"
+#include "command.h"
+#include "console.h"
+#include "crash_handler.h"
 #include "dismantle/errors.h"
 #include "dismantle/host/suggest.h"
-#include "dismantle/stopped.h"
+#include "stopped.h"
 
 namespace dismantle::app {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "dismantle/completion.h"
+#include "completion.h"
 
 namespace dismantle::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "dismantle/plan_files.h"
+#include "plan_files.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "dismantle/errors.h"
-#include "dismantle/finished_run.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/write_file.h"
+#include "finished_run.h"
 
 namespace dismantle::app {
 

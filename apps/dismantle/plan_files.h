@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "console.h"
 #include "dismantle/assembly.h"
-#include "dismantle/console.h"
 #include "dismantle/plan.h"
 #include "dismantle/session/session.h"
 

@@ -1,4 +1,4 @@
-#include "dismantle/plan_report.h"
+#include "plan_report.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "dismantle/command.h"
+#include "command.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/summary.h"
 

@@ -1,4 +1,4 @@
-#include "dismantle/plugin_template.h"
+#include "plugin_template.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "dismantle/plugins_check.h"
+#include "plugins_check.h"
 
 #include <unistd.h>
 

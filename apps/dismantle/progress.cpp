@@ -1,4 +1,4 @@
-#include "dismantle/progress.h"
+#include "progress.h"
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "dismantle/colour.h"
+#include "colour.h"
 
 namespace dismantle::app {
 namespace {

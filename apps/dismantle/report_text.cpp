@@ -1,4 +1,4 @@
-#include "dismantle/report_text.h"
+#include "report_text.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "dismantle/revision_report.h"
+#include "revision_report.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "dismantle/settings.h"
+#include "settings.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "dismantle/errors.h"
-#include "dismantle/interrupt.h"
+#include "interrupt.h"
 
 namespace dismantle::app {
 

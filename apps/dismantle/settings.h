@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "console.h"
 #include "dismantle/assembly.h"
-#include "dismantle/console.h"
 #include "dismantle/host/config.h"
 #include "dismantle/host/registry.h"
 #include "dismantle/run_context.h"

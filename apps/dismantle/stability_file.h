@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "dismantle/console.h"
+#include "console.h"
 
 namespace dismantle::app {
 

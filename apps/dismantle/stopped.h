@@ -1,7 +1,7 @@
 /// A command that was interrupted or reached its time limit.
 #pragma once
 
-#include "dismantle/command.h"
+#include "command.h"
 #include "dismantle/errors.h"
 #include "dismantle/run_context.h"
 

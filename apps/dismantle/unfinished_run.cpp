@@ -1,19 +1,19 @@
-#include "dismantle/unfinished_run.h"
+#include "unfinished_run.h"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <cstdlib>
 
-#include "dismantle/command.h"
-#include "dismantle/crash_handler.h"
+#include "command.h"
+#include "crash_handler.h"
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/write_file.h"
-#include "dismantle/plan_report.h"
-#include "dismantle/settings.h"
-#include "dismantle/stopped.h"
+#include "plan_report.h"
+#include "settings.h"
+#include "stopped.h"
 
 namespace dismantle::app {
 namespace {

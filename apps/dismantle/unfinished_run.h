@@ -5,12 +5,12 @@
 #include <mutex>
 #include <string>
 
+#include "console.h"
 #include "dismantle/assembly.h"
-#include "dismantle/console.h"
 #include "dismantle/host/config.h"
-#include "dismantle/isolation.h"
-#include "dismantle/plan_files.h"
 #include "dismantle/run_context.h"
+#include "isolation.h"
+#include "plan_files.h"
 
 namespace dismantle::app {
 

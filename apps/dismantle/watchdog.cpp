@@ -1,4 +1,4 @@
-#include "dismantle/watchdog.h"
+#include "watchdog.h"
 
 #include <chrono>
 #include <utility>

@@ -6,7 +6,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/plan_file.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "dismantle/session/session.h"
 
 namespace dismantle {

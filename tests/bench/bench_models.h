@@ -10,7 +10,7 @@
 #include "dismantle/assembly.h"
 #include "dismantle/preparation/prepare.h"
 #include "dismantle/run_context.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 
 namespace dismantle::bench {
 

@@ -40,7 +40,7 @@ def run_target(name, folder, seconds, seed, hang):
     corpus.mkdir(parents=True, exist_ok=True)
     found.mkdir(parents=True, exist_ok=True)
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    words = ROOT / "tests/fuzz/words" / (name + ".dict")
+    words = ROOT / "test/fuzz/words" / (name + ".dict")
     command = [str(folder / ("fuzz_" + name)), str(corpus), "-artifact_prefix=%s/" % found, "-max_total_time=%d" % seconds,
                "-timeout=%d" % hang, "-rss_limit_mb=2048", "-malloc_limit_mb=1024", "-print_final_stats=1", "-seed=%d" % seed,
                "-max_len=%d" % LONGEST_INPUT.get(name, 16384), "-close_fd_mask=1"]

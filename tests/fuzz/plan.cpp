@@ -6,7 +6,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/preparation/assembly_of_plan.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "dismantle/testing/built_in_provers.h"
 #include "dismantle/verification/check_plan.h"
 #include "expect.h"

@@ -201,7 +201,7 @@ def make_seeds(program, step_seeds, source, folder):
 
 def copy_regressions(source, folder):
     """Inputs that once broke something are tried first."""
-    for file in sorted((pathlib.Path(source) / "tests/fuzz/regressions").glob("*/*")):
+    for file in sorted((pathlib.Path(source) / "test/fuzz/regressions").glob("*/*")):
         target = pathlib.Path(folder) / file.parent.name
         target.mkdir(parents=True, exist_ok=True)
         shutil.copy(file, target / ("regression_" + file.name))

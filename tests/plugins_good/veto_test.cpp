@@ -4,7 +4,7 @@
 #include "dismantle/engine/run.h"
 #include "dismantle/host/registry.h"
 #include "dismantle/preparation/prepare.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 
 namespace dismantle {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "dismantle/statics/built.h"
 #include "dismantle/statics/holds.h"
 #include "dismantle/testing/shapes.h"

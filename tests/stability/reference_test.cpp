@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "dismantle/statics/limits.h"
 #include "dismantle/statics/verdict.h"
 #include "dismantle/testing/trials.h"

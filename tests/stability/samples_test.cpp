@@ -1,5 +1,5 @@
 // Statics of the samples whose answers are known.
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include "brute_force.h"
 #include "dismantle/preparation/prepare.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "dismantle/testing/shapes.h"
 #include "dismantle/testing/trials.h"
 #include "dismantle/verification/check_plan.h"

@@ -12,7 +12,7 @@
 #include "bindings.h"
 #include "dismantle/errors.h"
 #include "dismantle/host/suggest.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "interruptible.h"
 #include "overlap.h"
 

@@ -177,10 +177,7 @@ Array placed(const std::vector<PlacedPart>& parts) {
   return array_of(poses);
 }
 
-}  // namespace
-
-void bind_path_planner(py::module_& m) {
-  bind_run_view(m);
+void bind_path_result(py::module_& m) {
   py::class_<PathCheck>(m, "PathCheck", "The verifier's answer about a path. True in a condition when it was accepted.")
       .def_property_readonly("accepted", &PathCheck::accepted, "True when the path is a valid removal.")
       .def("__bool__", &PathCheck::accepted)
@@ -224,6 +221,9 @@ void bind_path_planner(py::module_& m) {
       .def_property(
           "cost", [](const PathResult& r) { return r.stats.cost; }, [](PathResult& r, double c) { r.stats.cost = c; },
           "Work of the search; 0: simulated steps and state checks are counted.");
+}
+
+void bind_path_query(py::module_& m) {
   py::class_<QueryView, std::shared_ptr<QueryView>>(
       m, "PathQuery",
       "One question to a path planner: how do the moving parts leave? Assembly "
@@ -280,6 +280,14 @@ void bind_path_planner(py::module_& m) {
       .def("check", &QueryView::check, py::arg("path"),
            "Shows a path to the verifier: (K, M, 7), or (K, 7) for one moving part; returns a PathCheck. Between two "
            "instants each part moves by the joining screw motion, so a straight line needs its two ends only.");
+}
+
+}  // namespace
+
+void bind_path_planner(py::module_& m) {
+  bind_run_view(m);
+  bind_path_result(m);
+  bind_path_query(m);
   m.def("_register_path_planner", [](const py::object& declared) {
     register_python_type(
         PluginKind::path_planner, declared, [](const PythonType& type, Held object) -> std::shared_ptr<void> {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dismantle/errors.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "dismantle/testing/fake_planning.h"
 
 namespace dismantle {

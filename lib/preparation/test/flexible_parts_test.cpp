@@ -11,7 +11,7 @@
 #include "dismantle/geometry/strand.h"
 #include "dismantle/preparation/check_assembly.h"
 #include "dismantle/preparation/prepare.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "dismantle/testing/shapes.h"
 #include "dismantle/testing/strand_shapes.h"
 #include "dismantle/testing/trials.h"

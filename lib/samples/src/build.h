@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "solids.h"
 
 namespace dismantle::samples {

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <system_error>
 
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 
 namespace dismantle::samples {
 namespace {

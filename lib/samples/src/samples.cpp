@@ -1,4 +1,4 @@
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 
 #include <cmath>
 #include <limits>

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 
 namespace dismantle::samples {
 namespace {

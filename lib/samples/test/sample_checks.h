@@ -14,7 +14,7 @@
 #include "dismantle/parameters.h"
 #include "dismantle/pose.h"
 #include "dismantle/run_context.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 
 namespace dismantle::samples {
 

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "dismantle/session/session.h"
 
 namespace dismantle {

@@ -12,7 +12,7 @@
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/plugin.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 
 namespace dismantle {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "dismantle/run_context.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "dismantle/testing/shapes.h"
 #include "sample_checks.h"
 

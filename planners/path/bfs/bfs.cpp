@@ -1,5 +1,5 @@
 #include "dismantle/plugin.h"
-#include "dismantle/push/plan.h"
+#include "dismantle/push_search/plan.h"
 #include "parameters.h"
 #include "published.h"
 

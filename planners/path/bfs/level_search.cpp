@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "dismantle/path/candidates.h"
-#include "dismantle/path/placed_parts.h"
 #include "dismantle/path/touched.h"
+#include "dismantle/search/candidates.h"
+#include "dismantle/search/placed_parts.h"
 
 namespace dismantle::bfs {
 namespace {

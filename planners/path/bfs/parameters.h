@@ -1,7 +1,7 @@
 /// Parameters of the bfs path planner.
 #pragma once
 
-#include "dismantle/push/parameters.h"
+#include "dismantle/push_search/parameters.h"
 
 namespace dismantle::bfs {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "dismantle/path/resume.h"
-#include "dismantle/path/time_limit.h"
+#include "dismantle/search/time_limit.h"
 
 namespace dismantle::bfs {
 

@@ -2,11 +2,11 @@
 #include <memory>
 #include <vector>
 
-#include "dismantle/path/ended_search.h"
-#include "dismantle/path/growing_turns.h"
-#include "dismantle/path/time_limit.h"
 #include "dismantle/path/touched.h"
 #include "dismantle/plugin.h"
+#include "dismantle/search/ended_search.h"
+#include "dismantle/search/growing_turns.h"
+#include "dismantle/search/time_limit.h"
 #include "random_tree.h"
 
 namespace dismantle::bk_rrt {

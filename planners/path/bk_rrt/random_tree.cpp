@@ -4,10 +4,10 @@
 #include <optional>
 #include <utility>
 
-#include "dismantle/path/candidates.h"
-#include "dismantle/path/placed_parts.h"
+#include "dismantle/ompl/sampling_problem.h"
 #include "dismantle/path/touched.h"
-#include "dismantle/sampling/sampling_problem.h"
+#include "dismantle/search/candidates.h"
+#include "dismantle/search/placed_parts.h"
 
 namespace dismantle::bk_rrt {
 namespace {

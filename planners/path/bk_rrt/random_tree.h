@@ -6,11 +6,11 @@
 #include <memory>
 #include <vector>
 
+#include "dismantle/ompl/displacement_space.h"
+#include "dismantle/ompl/nearest.h"
 #include "dismantle/path/path_thinning.h"
 #include "dismantle/path_planner.h"
 #include "dismantle/plugin/search_recorder.h"
-#include "dismantle/sampling/displacement_space.h"
-#include "dismantle/sampling/nearest.h"
 #include "parameters.h"
 
 namespace dismantle::bk_rrt {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "dismantle/path/placed_parts.h"
+#include "dismantle/search/placed_parts.h"
 
 namespace dismantle::path {
 

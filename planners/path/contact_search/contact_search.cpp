@@ -2,7 +2,7 @@
 
 #include "dismantle/executor.h"
 #include "dismantle/plugin.h"
-#include "dismantle/push/plan.h"
+#include "dismantle/push_search/plan.h"
 #include "parameters.h"
 
 namespace dismantle::contact_search {

@@ -1,7 +1,7 @@
 /// Parameters of the contact_search path planner.
 #pragma once
 
-#include "dismantle/push/parameters.h"
+#include "dismantle/push_search/parameters.h"
 
 namespace dismantle::contact_search {
 

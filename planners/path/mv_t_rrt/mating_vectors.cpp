@@ -7,7 +7,7 @@
 
 #include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/numerics.h"
-#include "dismantle/path/placed_parts.h"
+#include "dismantle/search/placed_parts.h"
 
 namespace dismantle::mv_t_rrt {
 namespace {

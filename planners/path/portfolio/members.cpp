@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "dismantle/path/time_limit.h"
+#include "dismantle/search/time_limit.h"
 
 namespace dismantle::portfolio {
 

@@ -1,6 +1,6 @@
 #include "participation.h"
 
-#include "dismantle/path/placed_parts.h"
+#include "dismantle/search/placed_parts.h"
 
 namespace dismantle::portfolio {
 

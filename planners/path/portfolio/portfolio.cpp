@@ -2,8 +2,8 @@
 #include <memory>
 #include <vector>
 
-#include "dismantle/path/ended_search.h"
 #include "dismantle/plugin.h"
+#include "dismantle/search/ended_search.h"
 #include "parameters.h"
 #include "portfolio_search.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "dismantle/path/time_limit.h"
+#include "dismantle/search/time_limit.h"
 
 namespace dismantle::portfolio {
 

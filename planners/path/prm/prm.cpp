@@ -1,7 +1,7 @@
+#include "dismantle/ompl/disassembled_goal.h"
+#include "dismantle/ompl/roadmap.h"
+#include "dismantle/ompl/space_search.h"
 #include "dismantle/plugin.h"
-#include "dismantle/sampling/disassembled_goal.h"
-#include "dismantle/sampling/roadmap.h"
-#include "dismantle/sampling/space_search.h"
 
 namespace dismantle::prm {
 namespace {

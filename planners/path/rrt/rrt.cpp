@@ -1,7 +1,7 @@
 #include <set>
 
+#include "dismantle/ompl/tree_planner.h"
 #include "dismantle/plugin.h"
-#include "dismantle/sampling/tree_planner.h"
 
 namespace dismantle::rrt {
 namespace {

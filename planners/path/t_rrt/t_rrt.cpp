@@ -1,6 +1,6 @@
+#include "dismantle/ompl/targetless.h"
+#include "dismantle/ompl/tree_planner.h"
 #include "dismantle/plugin.h"
-#include "dismantle/sampling/targetless.h"
-#include "dismantle/sampling/tree_planner.h"
 
 namespace dismantle::t_rrt {
 namespace {

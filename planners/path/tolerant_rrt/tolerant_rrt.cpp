@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "dismantle/path/growing_turns.h"
 #include "dismantle/plugin.h"
+#include "dismantle/search/growing_turns.h"
 #include "dismantle/tolerant_walk/geometry_cache.h"
 #include "dismantle/tolerant_walk/rrt_search.h"
 

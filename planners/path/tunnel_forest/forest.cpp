@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dismantle/path/placed_parts.h"
 #include "dismantle/path/touched.h"
+#include "dismantle/search/placed_parts.h"
 
 namespace dismantle::tunnel_forest {
 namespace {

@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
-#include "dismantle/path/candidates.h"
-#include "dismantle/path/placed_parts.h"
 #include "dismantle/path_planner.h"
+#include "dismantle/search/candidates.h"
+#include "dismantle/search/placed_parts.h"
 #include "local_planner.h"
 #include "narrow_places.h"
 #include "parameters.h"

@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "dismantle/path/placed_parts.h"
-#include "dismantle/path/shortcuts.h"
+#include "dismantle/search/placed_parts.h"
+#include "dismantle/search/shortcuts.h"
 #include "forest.h"
 
 namespace dismantle::tunnel_forest {

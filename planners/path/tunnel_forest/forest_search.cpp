@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "dismantle/path/growing_turns.h"
-#include "dismantle/path/time_limit.h"
 #include "dismantle/path/touched.h"
+#include "dismantle/search/growing_turns.h"
+#include "dismantle/search/time_limit.h"
 
 namespace dismantle::tunnel_forest {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "dismantle/parameters.h"
-#include "dismantle/path/motion.h"
-#include "dismantle/path/shared_parameters.h"
+#include "dismantle/search/motion.h"
+#include "dismantle/search/shared_parameters.h"
 
 namespace dismantle::tunnel_forest {
 

@@ -5,7 +5,7 @@
 #include <deque>
 #include <limits>
 
-#include "dismantle/path/placed_parts.h"
+#include "dismantle/search/placed_parts.h"
 
 namespace dismantle::tunnel_forest {
 

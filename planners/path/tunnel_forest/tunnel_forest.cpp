@@ -1,8 +1,8 @@
 #include <memory>
 
-#include "dismantle/path/ended_search.h"
-#include "dismantle/path/growing_turns.h"
 #include "dismantle/plugin.h"
+#include "dismantle/search/ended_search.h"
+#include "dismantle/search/growing_turns.h"
 #include "forest_search.h"
 
 namespace dismantle::tunnel_forest {

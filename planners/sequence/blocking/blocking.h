@@ -1,7 +1,7 @@
 /// Disassembles by blocking graphs, the cheapest strategy first; path searches are the last resort.
 #pragma once
 
-#include "blocking/params.h"
+#include "blocking/parameters.h"
 #include "dismantle/sequence_planner.h"
 
 namespace dismantle {

@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "blocking/params.h"
+#include "blocking/parameters.h"
 #include "blocking_graph/state.h"
 
 namespace dismantle::blocking {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "blocking/params.h"
+#include "blocking/parameters.h"
 #include "blocking_graph/state.h"
 #include "blocking_graph/straight_motion.h"
 #include "dismantle/motion_depth.h"

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "blocking/params.h"
+#include "blocking/parameters.h"
 #include "blocking/polyhedron.h"
 #include "dismantle/assembly.h"
 #include "dismantle/run_context.h"

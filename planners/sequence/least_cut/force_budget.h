@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "least_cut/params.h"
 #include "dismantle/run_context.h"
+#include "least_cut/parameters.h"
 
 namespace dismantle::least_cut {
 

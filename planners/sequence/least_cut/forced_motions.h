@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "dismantle/geometry/face_axes.h"
-#include "dismantle/geometry/twist.h"
 #include "dismantle/geometry/solid.h"
+#include "dismantle/geometry/twist.h"
 #include "dismantle/part_memo.h"
 #include "dismantle/part_set.h"
 #include "dismantle/path_oracle.h"
 #include "least_cut/directional_blockers.h"
-#include "least_cut/params.h"
+#include "least_cut/parameters.h"
 
 namespace dismantle::least_cut {
 

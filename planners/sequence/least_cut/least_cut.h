@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dismantle/sequence_planner.h"
-#include "least_cut/params.h"
+#include "least_cut/parameters.h"
 
 namespace dismantle {
 

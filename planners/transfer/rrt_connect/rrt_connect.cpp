@@ -1,9 +1,9 @@
 #include <optional>
 #include <utility>
 
-#include "dismantle/path/candidates.h"
 #include "dismantle/plugin.h"
 #include "dismantle/plugin/late_library.h"
+#include "dismantle/search/candidates.h"
 #include "parameters.h"
 #include "straight.h"
 #include "trees.h"

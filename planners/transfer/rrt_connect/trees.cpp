@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "dismantle/sampling/candidate_paths.h"
-#include "dismantle/sampling/connect_trees.h"
+#include "dismantle/ompl/candidate_paths.h"
+#include "dismantle/ompl/connect_trees.h"
 
 namespace dismantle::rrt_connect {
 namespace {

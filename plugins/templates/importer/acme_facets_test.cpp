@@ -6,7 +6,7 @@
 #include <iomanip>
 
 #include "dismantle/host/registry.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 
 namespace {
 

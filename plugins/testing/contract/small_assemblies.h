@@ -8,7 +8,7 @@
 
 #include "dismantle/plan.h"
 #include "dismantle/preparation/prepare.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "dismantle/testing/path_checking.h"
 #include "selection.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "dismantle/preparation/prepare.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "dismantle/testing/shapes.h"
 #include "dismantle/verification/verifier.h"
 #include "simulator.h"

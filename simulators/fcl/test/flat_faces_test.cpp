@@ -5,7 +5,7 @@
 
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/triangle_bvh.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "dismantle/testing/shapes.h"
 
 namespace dismantle::mesh_collision {

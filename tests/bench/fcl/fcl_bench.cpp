@@ -6,7 +6,7 @@
 #include <fcl/narrowphase/collision.h>
 
 #include "dismantle/preparation/prepare.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "world.h"
 
 namespace {

@@ -1,7 +1,7 @@
 /// Uses the installed libraries: samples, preparation and the plugin registry.
 #include <dismantle/host/registry.h>
 #include <dismantle/preparation/prepare.h>
-#include <dismantle/samples.h>
+#include <dismantle/samples/samples.h>
 
 #include <iostream>
 

@@ -8,7 +8,7 @@
 #include "dismantle/plan_io/animation.h"
 #include "dismantle/plan_io/page.h"
 #include "dismantle/plan_io/write_file.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "random_plan.h"
 #include "steps/timeline.h"
 

@@ -12,7 +12,7 @@
 #include "dismantle/host/config_bind.h"
 #include "dismantle/host/suggest.h"
 #include "dismantle/preparation/read_input.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 
 namespace dismantle::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "dismantle/errors.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "trial/files.h"
 
 namespace dismantle::bench {

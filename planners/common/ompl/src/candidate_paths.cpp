@@ -1,10 +1,10 @@
-#include "dismantle/sampling/candidate_paths.h"
+#include "dismantle/ompl/candidate_paths.h"
 
 #include <algorithm>
 #include <optional>
 #include <utility>
 
-#include "dismantle/path/candidates.h"
+#include "dismantle/search/candidates.h"
 
 namespace dismantle::sampling {
 

@@ -1,4 +1,4 @@
-#include "dismantle/sampling/connect_trees.h"
+#include "dismantle/ompl/connect_trees.h"
 
 #include <ompl/base/goals/GoalState.h>
 #include <ompl/geometric/PathGeometric.h>

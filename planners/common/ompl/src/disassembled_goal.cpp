@@ -1,8 +1,8 @@
-#include "dismantle/sampling/disassembled_goal.h"
+#include "dismantle/ompl/disassembled_goal.h"
 
 #include <algorithm>
 
-#include "dismantle/sampling/targetless.h"
+#include "dismantle/ompl/targetless.h"
 
 namespace dismantle::sampling {
 

@@ -1,4 +1,4 @@
-#include "dismantle/sampling/displacement_space.h"
+#include "dismantle/ompl/displacement_space.h"
 
 #include <ompl/base/StateSampler.h>
 

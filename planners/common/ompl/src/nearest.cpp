@@ -1,4 +1,4 @@
-#include "dismantle/sampling/nearest.h"
+#include "dismantle/ompl/nearest.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "dismantle/sampling/roadmap.h"
+#include "dismantle/ompl/roadmap.h"
 
 #include <ompl/geometric/PathGeometric.h>
 

@@ -1,4 +1,4 @@
-#include "dismantle/sampling/sampling_problem.h"
+#include "dismantle/ompl/sampling_problem.h"
 
 #include <ompl/util/Console.h>
 
@@ -8,9 +8,9 @@
 
 #include "dismantle/geometry/hull.h"
 #include "dismantle/geometry/numerics.h"
-#include "dismantle/path/placed_parts.h"
-#include "dismantle/path/shortcuts.h"
-#include "dismantle/path/time_limit.h"
+#include "dismantle/search/placed_parts.h"
+#include "dismantle/search/shortcuts.h"
+#include "dismantle/search/time_limit.h"
 
 namespace dismantle::sampling {
 namespace {

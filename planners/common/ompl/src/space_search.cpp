@@ -1,15 +1,15 @@
-#include "dismantle/sampling/space_search.h"
+#include "dismantle/ompl/space_search.h"
 
 #include <ompl/base/ProblemDefinition.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "dismantle/path/ended_search.h"
-#include "dismantle/path/growing_turns.h"
-#include "dismantle/path/time_limit.h"
+#include "dismantle/ompl/candidate_paths.h"
 #include "dismantle/plugin/search_recorder.h"
-#include "dismantle/sampling/candidate_paths.h"
+#include "dismantle/search/ended_search.h"
+#include "dismantle/search/growing_turns.h"
+#include "dismantle/search/time_limit.h"
 
 namespace dismantle::sampling {
 namespace {

@@ -1,4 +1,4 @@
-#include "dismantle/sampling/state_tree.h"
+#include "dismantle/ompl/state_tree.h"
 
 namespace dismantle::sampling {
 

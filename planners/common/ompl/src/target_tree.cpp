@@ -1,4 +1,4 @@
-#include "dismantle/sampling/target_tree.h"
+#include "dismantle/ompl/target_tree.h"
 
 #include <ompl/base/PlannerData.h>
 #include <ompl/geometric/PathGeometric.h>

@@ -1,4 +1,4 @@
-#include "dismantle/sampling/targetless.h"
+#include "dismantle/ompl/targetless.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "dismantle/sampling/tree_planner.h"
+#include "dismantle/ompl/tree_planner.h"
 
 #include <ompl/base/ProblemDefinition.h>
 

@@ -1,8 +1,8 @@
 // Laws of the state space, nearest neighbours and checked motions.
 #include <gtest/gtest.h>
 
-#include "dismantle/sampling/nearest.h"
-#include "dismantle/sampling/sampling_problem.h"
+#include "dismantle/ompl/nearest.h"
+#include "dismantle/ompl/sampling_problem.h"
 #include "dismantle/testing/path_checking.h"
 #include "dismantle/testing/shapes.h"
 #include "fake_world.h"

@@ -4,10 +4,10 @@
 
 #include <thread>
 
+#include "dismantle/ompl/targetless.h"
+#include "dismantle/ompl/tree_planner.h"
 #include "dismantle/preparation/prepare.h"
-#include "dismantle/samples.h"
-#include "dismantle/sampling/targetless.h"
-#include "dismantle/sampling/tree_planner.h"
+#include "dismantle/samples/samples.h"
 #include "dismantle/testing/path_checking.h"
 #include "simulator.h"
 

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "dismantle/sampling/connect_trees.h"
-#include "dismantle/sampling/disassembled_goal.h"
-#include "dismantle/sampling/roadmap.h"
-#include "dismantle/sampling/space_search.h"
+#include "dismantle/ompl/connect_trees.h"
+#include "dismantle/ompl/disassembled_goal.h"
+#include "dismantle/ompl/roadmap.h"
+#include "dismantle/ompl/space_search.h"
 #include "dismantle/testing/path_checking.h"
 #include "dismantle/testing/shapes.h"
 #include "fake_world.h"

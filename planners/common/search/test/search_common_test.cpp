@@ -5,9 +5,9 @@
 #include <numeric>
 #include <vector>
 
-#include "dismantle/path/candidates.h"
-#include "dismantle/path/growing_turns.h"
-#include "dismantle/path/shortcuts.h"
+#include "dismantle/search/candidates.h"
+#include "dismantle/search/growing_turns.h"
+#include "dismantle/search/shortcuts.h"
 #include "dismantle/testing/path_checking.h"
 
 namespace dismantle::path {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "dismantle/preparation/prepare.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "table.h"
 
 namespace dismantle::contact_search {

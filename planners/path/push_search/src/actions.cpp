@@ -1,11 +1,11 @@
-#include "dismantle/push/actions.h"
+#include "dismantle/push_search/actions.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
-#include "dismantle/path/placed_parts.h"
+#include "dismantle/search/placed_parts.h"
 
 namespace dismantle::push {
 namespace {

@@ -1,4 +1,4 @@
-#include "dismantle/push/alternation.h"
+#include "dismantle/push_search/alternation.h"
 
 #include <algorithm>
 

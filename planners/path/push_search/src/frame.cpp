@@ -1,4 +1,4 @@
-#include "dismantle/push/frame.h"
+#include "dismantle/push_search/frame.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "dismantle/push/phases.h"
+#include "dismantle/push_search/phases.h"
 
 #include <algorithm>
 #include <utility>

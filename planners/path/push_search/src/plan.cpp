@@ -1,13 +1,13 @@
-#include "dismantle/push/plan.h"
+#include "dismantle/push_search/plan.h"
 
 #include <cstdint>
 #include <optional>
 #include <utility>
 
-#include "dismantle/path/ended_search.h"
-#include "dismantle/path/time_limit.h"
-#include "dismantle/push/alternation.h"
-#include "dismantle/push/phases.h"
+#include "dismantle/push_search/alternation.h"
+#include "dismantle/push_search/phases.h"
+#include "dismantle/search/ended_search.h"
+#include "dismantle/search/time_limit.h"
 
 namespace dismantle::push {
 namespace {

@@ -1,4 +1,4 @@
-#include "dismantle/push/problem.h"
+#include "dismantle/push_search/problem.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "dismantle/push/proposals.h"
+#include "dismantle/push_search/proposals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "dismantle/geometry/slippage.h"
-#include "dismantle/push/actions.h"
-#include "dismantle/push/touching_surfaces.h"
+#include "dismantle/push_search/actions.h"
+#include "dismantle/push_search/touching_surfaces.h"
 
 namespace dismantle::push {
 namespace {

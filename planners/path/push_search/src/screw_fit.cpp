@@ -1,4 +1,4 @@
-#include "dismantle/push/screw_fit.h"
+#include "dismantle/push_search/screw_fit.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,12 +1,12 @@
-#include "dismantle/push/screw_run.h"
+#include "dismantle/push_search/screw_run.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "dismantle/path/placed_parts.h"
-#include "dismantle/push/screw_fit.h"
+#include "dismantle/push_search/screw_fit.h"
+#include "dismantle/search/placed_parts.h"
 
 namespace dismantle::push {
 namespace {

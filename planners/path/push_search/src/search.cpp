@@ -1,4 +1,4 @@
-#include "dismantle/push/search.h"
+#include "dismantle/push_search/search.h"
 
 #include <algorithm>
 #include <optional>

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "dismantle/path/resume.h"
-#include "dismantle/push/search.h"
+#include "dismantle/push_search/search.h"
 
 namespace dismantle::push {
 

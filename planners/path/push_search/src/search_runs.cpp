@@ -3,8 +3,8 @@
 #include <numbers>
 #include <utility>
 
-#include "dismantle/push/screw_run.h"
-#include "dismantle/push/search.h"
+#include "dismantle/push_search/screw_run.h"
+#include "dismantle/push_search/search.h"
 
 namespace dismantle::push {
 namespace {

@@ -1,10 +1,10 @@
-#include "dismantle/push/state_tree.h"
+#include "dismantle/push_search/state_tree.h"
 
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
-#include "dismantle/path/placed_parts.h"
+#include "dismantle/search/placed_parts.h"
 
 namespace dismantle::push {
 namespace {

@@ -1,6 +1,6 @@
-#include "dismantle/push/touching_surfaces.h"
+#include "dismantle/push_search/touching_surfaces.h"
 
-#include "dismantle/path/placed_parts.h"
+#include "dismantle/search/placed_parts.h"
 
 namespace dismantle::push {
 std::vector<geometry::SurfaceSample> touching_surfaces(const std::vector<Contact>& contacts,

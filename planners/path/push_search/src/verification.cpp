@@ -1,4 +1,4 @@
-#include "dismantle/push/verification.h"
+#include "dismantle/push_search/verification.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "dismantle/geometry/numerics.h"
-#include "dismantle/path/candidates.h"
+#include "dismantle/search/candidates.h"
 
 namespace dismantle::push {
 namespace {

@@ -1,4 +1,4 @@
-#include "dismantle/push/work.h"
+#include "dismantle/push_search/work.h"
 
 namespace dismantle::push {
 

@@ -1,5 +1,5 @@
 /// Laws of proposals: they rotate with the input.
-#include "dismantle/push/actions.h"
+#include "dismantle/push_search/actions.h"
 
 #include <gtest/gtest.h>
 

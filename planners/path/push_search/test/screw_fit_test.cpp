@@ -1,5 +1,5 @@
 // Two poses on a screw determine it, even if the rough screw is slightly wrong.
-#include "dismantle/push/screw_fit.h"
+#include "dismantle/push_search/screw_fit.h"
 
 #include <gtest/gtest.h>
 

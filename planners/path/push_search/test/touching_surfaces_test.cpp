@@ -1,5 +1,5 @@
 // Selection of the contacts with surfaces that guide a body.
-#include "dismantle/push/touching_surfaces.h"
+#include "dismantle/push_search/touching_surfaces.h"
 
 #include <gtest/gtest.h>
 

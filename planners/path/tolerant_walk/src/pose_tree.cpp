@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "dismantle/path/candidates.h"
-#include "dismantle/path/placed_parts.h"
-#include "dismantle/path/shortcuts.h"
-#include "dismantle/path/time_limit.h"
 #include "dismantle/path/touched.h"
+#include "dismantle/search/candidates.h"
+#include "dismantle/search/placed_parts.h"
+#include "dismantle/search/shortcuts.h"
+#include "dismantle/search/time_limit.h"
 
 namespace dismantle::tolerant_walk {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "dismantle/path/growing_turns.h"
-#include "dismantle/path/time_limit.h"
+#include "dismantle/search/growing_turns.h"
+#include "dismantle/search/time_limit.h"
 
 namespace dismantle::tolerant_walk {
 namespace {

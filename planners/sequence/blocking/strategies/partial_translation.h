@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "blocking/lattice_search.h"
-#include "blocking/params.h"
+#include "blocking/parameters.h"
 #include "blocking/translation_search.h"
 #include "blocking_graph/straight_motion.h"
 #include "blocking_graph/strategy.h"

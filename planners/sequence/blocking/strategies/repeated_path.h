@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "blocking/params.h"
+#include "blocking/parameters.h"
 #include "blocking_graph/pair_sweep.h"
 #include "blocking_graph/strategy.h"
 

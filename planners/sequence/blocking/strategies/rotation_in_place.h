@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "blocking/params.h"
+#include "blocking/parameters.h"
 #include "blocking/rotation_axes.h"
 #include "blocking_graph/straight_motion.h"
 #include "blocking_graph/strategy.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "blocking/lookahead.h"
-#include "blocking/params.h"
+#include "blocking/parameters.h"
 #include "blocking/search_history.h"
 #include "blocking/snap_fits.h"
 #include "blocking_graph/straight_motion.h"

@@ -11,7 +11,7 @@
 #include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/preparation/prepare.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "dismantle/testing/trials.h"
 #include "last_resort.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "dismantle/preparation/prepare.h"
-#include "dismantle/samples.h"
+#include "dismantle/samples/samples.h"
 #include "dismantle/testing/fake_planning.h"
 #include "dismantle/verification/check_plan.h"
 #include "state_based/evaluation.h"

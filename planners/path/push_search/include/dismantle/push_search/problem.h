@@ -1,0 +1,54 @@
+/// What a push search is asked, and the world that it simulates.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "dismantle/path/path_thinning.h"
+#include "dismantle/path_planner.h"
+#include "dismantle/push_search/frame.h"
+#include "dismantle/push_search/tactics.h"
+
+namespace dismantle::push {
+
+struct Problem {
+  /// Both references must outlive this.
+  Problem(const PathQuery& query, MotionSpace space, const Tactics& tactics);
+
+  bool rotates() const { return world->space() == MotionSpace::rigid; }
+  /// The parts move independently until one of Goal::any_of is separated.
+  bool independent() const { return !query.goal.any_of.empty(); }
+  /// Stages of actions of this search.
+  const std::vector<Stage>& stages() const;
+  /// True if a part of Goal::any_of is separated from all others or, without any_of, the group from the fixed parts.
+  bool out(const State& state) const;
+  /// Displacement of the centre that has moved furthest. If parts move independently: of the part that has moved second
+  /// furthest, rotation included; 0 if only one part has moved.
+  double displacement(const State& state) const;
+  /// Centre of the first moving part, world frame.
+  Eigen::Vector3d center(const State& state) const { return state.bodies[0].pose * bodies[0].center; }
+  std::vector<Contact> contacts(const State& state) const;
+
+  // Lengths, assembly units.
+  /// Parts without vertices, as in tests, have no way out of each other's boxes.
+  double glide_step() const {
+    const double way = extents.longest_way_out();
+    return std::isfinite(way) ? std::max(query.tolerance, tactics.glide_step * way) : 20 * query.tolerance;
+  }
+  double thinning() const { return tactics.thinning * query.tolerance; }
+  /// Moves the parts away from their contacts; see SearchParameters::clearance.
+  void give_room(State& state) const;
+  double touch_distance() const { return tactics.touch_distance * query.tolerance; }
+
+  const PathQuery& query;
+  const Tactics& tactics;
+  std::unique_ptr<World> world;
+  std::vector<path::Ball> bodies;
+  Eigen::Matrix3d axes;  ///< columns: directions of the unit actions
+  Extents extents;       ///< at the start of the query
+};
+
+}  // namespace dismantle::push

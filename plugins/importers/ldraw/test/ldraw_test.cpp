@@ -1,0 +1,187 @@
+// LDraw: what a model declares arrives, in its place, with its handedness and its order.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "dismantle/errors.h"
+#include "dismantle/geometry/mesh_measure.h"
+#include "ldraw_importer.h"
+
+namespace dismantle::ldraw {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A closed box from the origin to (x, y, z), LDraw units, wound counter-clockwise.
+std::string box(double x, double y, double z) {
+  const auto p = [&](int i) {
+    return std::to_string(i & 1 ? x : 0) + " " + std::to_string(i & 2 ? y : 0) + " " + std::to_string(i & 4 ? z : 0);
+  };
+  std::string out;
+  const int faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const auto& f : faces) out += "4 16 " + p(f[0]) + " " + p(f[1]) + " " + p(f[2]) + " " + p(f[3]) + "\n";
+  return out;
+}
+
+class Ldraw : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("dismantle-ldraw-" + std::to_string(::getpid()));
+    fs::create_directories(folder_ / "library/parts/s");
+    fs::create_directories(folder_ / "library/p");
+    write("library/parts/brick.dat", "0 Brick  1 x  1\n0 !LDRAW_ORG Part\n0 BFC CERTIFY CCW\n" + box(20, 24, 10));
+    write("library/parts/two.dat",
+          "0 Two Bricks\n0 !LDRAW_ORG Shortcut\n0 BFC CERTIFY CCW\n"
+          "1 16 0 0 0 1 0 0 0 1 0 0 0 1 brick.dat\n1 4 40 0 0 1 0 0 0 1 0 0 0 1 BRICK.DAT\n");
+    write("library/LDConfig.ldr", "0 !COLOUR Red CODE 4 VALUE #C91A09 EDGE #333333\n");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
+  std::vector<RawPart> read(const std::string& text) {
+    write("model.mpd", text);
+    return LdrawImporter().read(folder_ / "model.mpd", {});
+  }
+  std::vector<ReferenceStep> order(const std::string& text) {
+    write("model.mpd", text);
+    return LdrawImporter().reference_order(folder_ / "model.mpd", {});
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Ldraw, PartsHaveTheirPlaceSizeAndColour) {
+  const auto parts =
+      read("0 Tower\n1 4 100 -24 0 1 0 0 0 1 0 0 0 1 brick.dat\n1 0x2112233 0 0 0 1 0 0 0 1 0 0 0 1 two.dat\n");
+  ASSERT_EQ(parts.size(), 2u) << "a shortcut of two parts is one";
+  EXPECT_EQ(parts[0].name, "Brick 1 x 1");
+  EXPECT_EQ(parts[0].unit, "mm");
+  EXPECT_EQ(parts[0].colour, (Rgba{0xC9, 0x1A, 0x09, 255}));
+  EXPECT_EQ(parts[1].colour, (Rgba{0x11, 0x22, 0x33, 255}));
+  const Aabb b = parts[0].mesh.box();  // -Y is up, here Z
+  EXPECT_LT((b.lo - Eigen::Vector3d(40, 0, 0)).norm(), 1e-9);
+  EXPECT_LT((b.hi - Eigen::Vector3d(48, 4, 9.6)).norm(), 1e-9);
+  EXPECT_NEAR(signed_volume(parts[0].mesh), 8 * 4 * 9.6, 1e-9);
+  EXPECT_NEAR(signed_volume(parts[1].mesh), 2 * 8 * 4 * 9.6, 1e-9);
+}
+
+TEST_F(Ldraw, ALineThatIsWrittenTwiceIsOnePart) {
+  const std::string line = "1 4 0 0 0 1 0 0 0 1 0 0 0 1 brick.dat\n",
+                    other = "1 4 0 0 0 1 0 0 0 1 0 0 0 -1 brick.dat\n";
+  const std::string model = "0 Tower\n" + line + "0 STEP\n" + line + other + "0 STEP\n";
+  const auto parts = read(model);
+  ASSERT_EQ(parts.size(), 3u) << "nothing is left away in silence";
+  EXPECT_TRUE(parts[0].problem.empty());
+  EXPECT_TRUE(parts[1].by_meaning);
+  EXPECT_NE(parts[1].problem.find("same line twice"), std::string::npos);
+  EXPECT_TRUE(parts[2].problem.empty()) << "mirrored: another part";
+  const auto steps = order(model);
+  ASSERT_EQ(steps.size(), 2u);
+  EXPECT_EQ(steps[1].parts, (std::vector<std::uint32_t>{2}));
+}
+
+/// Mirrored placements, INVERTNEXT and clockwise files: the outside stays outside.
+TEST_F(Ldraw, TheOutsideStaysOutside) {
+  write("library/parts/clockwise.dat", "0 Clockwise\n0 !LDRAW_ORG Part\n0 BFC CERTIFY CW\n" + box(20, 24, 10));
+  write("library/parts/inner.dat",
+        "0 Inner\n0 !LDRAW_ORG Part\n0 BFC CERTIFY CCW\n0 BFC INVERTNEXT\n"
+        "1 16 0 0 0 1 0 0 0 1 0 0 0 1 brick.dat\n");
+  write("library/parts/half.dat",
+        "0 Half\n0 !LDRAW_ORG Part\n0 BFC CERTIFY CCW\n"
+        "1 16 0 0 0 -1 0 0 0 1 0 0 0 1 brick.dat\n");
+  const double volume = 8 * 4 * 9.6;
+  for (const auto& [line, sign] :
+       {std::pair("1 1 0 0 0 -1 0 0 0 1 0 0 0 1 brick.dat", 1), std::pair("1 1 0 0 0 -1 0 0 0 -1 0 0 0 1 brick.dat", 1),
+        std::pair("1 1 0 0 0 1 0 0 0 1 0 0 0 1 inner.dat", -1), std::pair("1 1 0 0 0 -1 0 0 0 1 0 0 0 1 inner.dat", -1),
+        std::pair("1 1 0 0 0 1 0 0 0 1 0 0 0 1 half.dat", 1), std::pair("1 1 0 0 0 1 0 0 0 1 0 0 0 -1 half.dat", 1),
+        std::pair("1 1 0 0 0 1 0 0 0 1 0 0 0 1 clockwise.dat", -1)})  // its box is wound the other way
+    EXPECT_NEAR(signed_volume(read("0 One\n" + std::string(line) + "\n")[0].mesh), sign * volume, 1e-9) << line;
+  const Aabb mirrored = read("0 One\n1 1 0 0 0 -1 0 0 0 1 0 0 0 1 brick.dat\n")[0].mesh.box();
+  EXPECT_NEAR(mirrored.lo.x(), -8, 1e-9);
+  EXPECT_NEAR(mirrored.hi.x(), 0, 1e-9);
+}
+
+const char* const kModel =
+    "0 FILE main.ldr\n0 Main\n1 4 0 0 0 1 0 0 0 1 0 0 0 1 brick.dat\n0 STEP\n"
+    "1 1 0 -100 0 1 0 0 0 1 0 0 0 1 Cart.ldr\n0 ROTSTEP 180 0 0 ABS\n"
+    "1 1 0 -200 0 0 -1 0 1 0 0 0 0 1 cart.ldr\n0 STEP\n0 STEP\n"
+    "0 FILE cart.ldr\n0 Cart\n1 16 0 0 0 1 0 0 0 1 0 0 0 1 own.dat\n0 STEP\n1 16 0 -24 0 1 0 0 0 1 0 0 0 1 brick.dat\n"
+    "1 16 0 -48 0 1 0 0 0 1 0 0 0 1 brick.dat\n"
+    "0 FILE own.dat\n0 Own Part\n0 !LDRAW_ORG Unofficial_Part\n3 16 0 0 0 0 0 10 10 0 0\n3 16 0 0 0 10 0 0 0 10 0\n";
+
+TEST_F(Ldraw, SubModelsAreGroupsAndEmbeddedFilesParts) {
+  const auto parts = read(kModel);
+  ASSERT_EQ(parts.size(), 7u);
+  EXPECT_EQ(parts[1].name, "Own Part");
+  EXPECT_EQ(parts[1].parents, std::vector<std::string>{"cart.ldr"});
+  EXPECT_EQ(parts[4].instances.front(), "cart.ldr#2");
+  EXPECT_NE(parts[2].instances.back(), parts[3].instances.back());
+  EXPECT_TRUE(parts[0].parents.empty());
+}
+
+TEST_F(Ldraw, StepsArePeoplesOrder) {
+  const auto steps = order(kModel);
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), right = Eigen::Vector3d::UnitX();
+  const std::vector<ReferenceStep> expected{
+      {1, {0}, "", up},        {1, {1}, "cart.ldr", up},      {2, {2, 3}, "cart.ldr", up},
+      {2, {1, 2, 3}, "", -up}, {1, {4}, "cart.ldr#2", right}, {2, {5, 6}, "cart.ldr#2", right},
+      {3, {4, 5, 6}, "", -up},
+  };
+  ASSERT_EQ(steps.size(), expected.size());
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    EXPECT_EQ(steps[i].step, expected[i].step) << i;
+    EXPECT_EQ(steps[i].parts, expected[i].parts) << i;
+    EXPECT_EQ(steps[i].group, expected[i].group) << i;
+    EXPECT_LT((steps[i].up - expected[i].up).norm(), 1e-9) << i << ": " << steps[i].up.transpose();
+  }
+}
+
+TEST_F(Ldraw, WhatIsMissingIsNamed) {
+  write("library/parts/broken.dat", "0 Broken\n0 !LDRAW_ORG Part\n1 16 0 0 0 1 0 0 0 1 0 0 0 1 s\\gone.dat\n");
+  const auto parts = read(
+      "0 Model\n1 4 0 0 0 1 0 0 0 1 0 0 0 1 brick.dat\n1 4 0 0 0 1 0 0 0 1 0 0 0 1 none.dat\n"
+      "1 4 0 0 0 1 0 0 0 1 0 0 0 1 broken.dat\n1 4 0 0 0 1 0 0 0 1 0 0 0 1 ../../secret.dat\n"
+      "1 4 0 0 0 1 0 0 0 0 0 0 0 1 brick.dat\n");
+  ASSERT_EQ(parts.size(), 5u);
+  EXPECT_EQ(parts[0].problem, "");
+  EXPECT_NE(parts[1].problem.find("'none.dat' is neither in the file nor in the library"), std::string::npos);
+  EXPECT_NE(parts[2].problem.find("'s/gone.dat'"), std::string::npos) << parts[2].problem;
+  EXPECT_NE(parts[3].problem.find("leads out of the folder"), std::string::npos);
+  EXPECT_NE(parts[4].problem.find("no volume"), std::string::npos);
+}
+
+TEST_F(Ldraw, FilesThatAreNotReadSayWhere) {
+  for (const auto& [text, problem] :
+       {std::pair("0 Model\n1 4 0 0 zero 1 0 0 0 1 0 0 0 1 brick.dat\n", "line 2: 'zero' is no number"),
+        std::pair("0 Model\n9 4 0 0\n", "line 2: '9' is no type of line"),
+        std::pair("0 FILE a.ldr\n0 A\n1 4 0 0 0 1 0 0 0 1 0 0 0 1 a.ldr\n", "refers to itself"),
+        std::pair("0 FILE a.ldr\n0 A\n0 FILE a.ldr\n0 A\n", "is there twice")}) {
+    try {
+      read(text);
+      FAIL() << text;
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find(problem), std::string::npos) << e.what();
+    }
+  }
+}
+
+/// Twenty files, each of which refers twice to the next: a million boxes are counted, not built.
+TEST_F(Ldraw, FilesThatExplodeAreCountedFirst) {
+  std::string text = "0 Model\n1 4 0 0 0 1 0 0 0 1 0 0 0 1 b0.dat\n";
+  for (int k = 0; k < 30; ++k)
+    write("library/parts/b" + std::to_string(k) + ".dat", "0 B\n0 !LDRAW_ORG Part\n" + (k == 29 ? box(1, 1, 1) : [&] {
+                                                            const std::string next = "1 16 0 0 0 1 0 0 0 1 0 0 0 1 b" +
+                                                                                     std::to_string(k + 1) + ".dat\n";
+                                                            return next + next;
+                                                          }()));
+  write("model.mpd", text);
+  EXPECT_EQ(LdrawImporter().count_triangles(folder_ / "model.mpd"), (std::uint64_t{1} << 29) * 12);
+  EXPECT_THROW(read(text), InputError);
+}
+
+}  // namespace
+}  // namespace dismantle::ldraw
