@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -115,6 +116,7 @@ std::string text_of(const Json& report, const Stability& asked) {
   if (!report.at("holds").empty())
     text += fmt::format("Hold {}{}.\n", names(report.at("holds")),
                         report.at("holds_proved") ? "; fewer holds are not enough" : "; fewer may be enough");
+  for (const Json& why : report.at("why")) text += fmt::format("  {}\n", why.get<std::string>());
   for (const Json& m : report.at("moves")) {
     const auto d = m.at("direction").get<std::vector<double>>();
     text +=
@@ -132,6 +134,39 @@ std::string text_of(const Json& report, const Stability& asked) {
   for (const Json& f : report.at("by_friction"))
     text += fmt::format("Friction {:.1f}: {}\n", f.at("friction").get<double>(), f.at("verdict").get<std::string>());
   return text;
+}
+
+/// The pile as a plan without steps: what the page shows. Its note says what falls and why, or that it stands.
+Plan plan_of_pile(const Session& session, const LoadedAssembly& loaded, const statics::StabilityReport& report,
+                  const Json& said, const Vec3& down) {
+  const Assembly& assembly = *loaded.assembly;
+  Plan plan = session.plan_of(Disassembly(assembly.parts.size()), loaded);
+  plan.asked.together.emplace_back();
+  for (const Part& part : assembly.parts) plan.asked.together.back().push_back(part.name);
+  plan.status = PlanStatus::complete;  // it is looked at as it is
+  const std::string verdict = said.at("verdict");
+  std::string text = verdict == "stands"       ? "It stands."
+                     : verdict == "pressed_in" ? "It stands only if it was pressed in."
+                     : verdict == "falls"      ? "It falls."
+                                               : "Whether it stands is uncertain.";
+  constexpr std::size_t kTold = 4;
+  for (std::size_t i = 0; i < std::min(kTold, report.why.size()); ++i) text += " " + report.why[i] + ".";
+  if (report.why.size() > kTold) text += fmt::format(" {} more parts fall.", report.why.size() - kTold);
+  if (!said.at("holds").empty())
+    text += fmt::format(" Hold {}.", fmt::join(said.at("holds").get<std::vector<std::string>>(), ", "));
+  Json data = {{"hold", Json::array()}, {"picture", Json::parse(statics::picture_of(report, assembly))}};
+  for (const Json& part : said.at("holds")) data["hold"].push_back({{"part", part}});
+  PlanVerdict whole;
+  whole.type = "stability";
+  whole.cost = static_cast<double>(said.at("holds").size());
+  whole.notes.push_back({"hold", text, data.dump(-1, ' ', false, Json::error_handler_t::replace)});
+  PlanObjectiveItem item;
+  item.type = whole.type;
+  item.cost = plan.objective.cost = whole.cost;
+  item.plan = std::move(whole);
+  plan.objective.up = -down;
+  plan.objective.checks.push_back(std::move(item));
+  return plan;
 }
 
 /// What is needed to find the same pile again.
@@ -206,7 +241,11 @@ int stability(const Stability& asked) {
     file["model"] = model_json(pile.options(), assembly);
     file.update(json);
     file["certificate"] = Json::parse(statics::certificate_json(report, assembly));
-    write_file(std::filesystem::path(asked.folder) / "stability.json", file.dump(1) + "\n");
+    const std::filesystem::path folder = asked.folder;
+    write_file(folder / "stability.json", file.dump(1) + "\n");
+    if (has_viewer())
+      write_file(folder / "index.html",
+                 page_of(plan_of_pile(session, loaded, report, json, report.pile.down), assembly));
   }
   Json result = {{"status", stands || held ? "complete" : "partial"},
                  {"reason", stands || held ? Json() : Json("does_not_stand")},
@@ -288,7 +327,9 @@ void add_stability(CLI::App& app, Action& action) {
       ->option_text("AXIS=DEGREES");
   command->add_option("--hands", options->hands, "Hands that may hold parts: success if so many holds are enough (0)")
       ->option_text("N");
-  command->add_option("-o,--output", options->folder, "Folder for stability.json, which verify takes")
+  command
+      ->add_option("-o,--output", options->folder,
+                   "Folder for stability.json, which verify takes, and index.html, which shows it")
       ->option_text("DIR");
   options->config.add_file_and_set(*command);
   options->config.add_key(*command, "--up", "layout.up", "x|y|z|-x|-y|-z|X,Y,Z",

@@ -323,6 +323,12 @@ class Book(WithPlan):
             text = subprocess.run(["pdftotext", self.path("long.pdf"), "-"], check=True, text=True, stdout=subprocess.PIPE).stdout
             self.assertGreaterEqual(re.sub(r"\s", "", text).count(name), 2)
 
+    def film_of(self, file):
+        """What ffprobe says of the film's pictures."""
+        out = subprocess.run(["ffprobe", "-v", "error", "-select_streams", "v:0", "-show_streams", "-of", "json", file], check=True, text=True,
+                             stdout=subprocess.PIPE, timeout=60).stdout
+        return json.loads(out)["streams"][0]
+
     def test_a_film(self):
         done = self.run_program("export", "out/plan.json", "--format", "gif", "-q")
         if "built without GIF" in done.stderr:
@@ -333,6 +339,13 @@ class Book(WithPlan):
         without = self.run_program("export", "out/plan.json", "--format", "mp4", "-q", env={"PATH": "/nonexistent"}, status=2)
         self.assertIn("apt-get install ffmpeg", without.stderr)
         self.assertFalse(os.path.exists(self.path("out", "assembly.mp4")))
+        if shutil.which("ffmpeg") and shutil.which("ffprobe"):
+            self.run_program("export", "out/plan.json", "--format", "mp4", "-q", status=0)
+            self.assertEqual([f for f in os.listdir(self.path("out")) if ".part" in f or f.endswith(".mp4.gif")], [])
+            gif, mp4 = (self.film_of(self.path("out", "assembly" + end)) for end in (".gif", ".mp4"))
+            self.assertEqual((mp4["codec_name"], mp4["pix_fmt"]), ("h264", "yuv420p"), "what every player shows")
+            self.assertEqual((mp4["width"], mp4["height"]), (gif["width"], gif["height"]))
+            self.assertAlmostEqual(float(mp4["duration"]), float(gif["duration"]), delta=0.2)
         self.assert_fails(2, "--disassembly is for films", "export", "out/plan.json", "--format", "dot", "--disassembly")
 
     def test_wrong_use_is_told(self):

@@ -70,6 +70,31 @@ class Stability(CliTest):
             self.write(f"out_{folder}/other.json", json.dumps(report))
             self.assertIn(self.run_program("verify", f"out_{folder}/other.json").returncode, (1, 3))
 
+    def test_a_sentence_and_a_page(self):
+        self.write_boxes("sign", leg=((0, 0, 0), (10, 10, 20)), plate=((0, 0, 20), (60, 10, 25)))
+        self.write_boxes("air", low=((0, 0, 0), (10, 10, 10)), high=((0, 0, 15), (10, 10, 25)))
+        why = {"sign": ["'plate' tips towards +x: nothing is under its half towards +x"], "air": ["'high' falls down: nothing is under it"]}
+        for folder, sentences in why.items():
+            self.assertEqual(self.stability(folder, "-o", "out_" + folder, status=1)["why"], sentences)
+            self.assertIn(sentences[0], self.run_program("stability", folder, status=1).stdout)
+        self.write_boxes("low", a=((0, 0, 0), (20, 20, 10)), b=((5, 0, 10), (25, 20, 20)))
+        self.assertEqual(self.stability("low", "-o", "out_low")["why"], [])
+        for folder, falls, kinds in (("sign", ["plate"], {"weight", "contact", "hold"}), ("air", ["high"], {"weight", "hold"}),
+                                     ("low", [], {"weight", "contact"})):
+            page = self.read("out_" + folder, "index.html")
+            begin = page.index('id="dismantle-data">') + len('id="dismantle-data">')
+            data = json.loads(page[begin:page.index("</script>", begin)])
+            self.assertEqual((data["result"]["word"], data["plan"]["disassembly"]), ("complete", []))
+            note = data["plan"]["objective"]["checks"][0]["plan"]["notes"][0]
+            self.assertEqual([p for fall in note["data"]["picture"]["falls"] for p in fall["parts"]], falls)
+            arrows = note["data"]["picture"]["arrows"]
+            self.assertEqual({a["kind"] for a in arrows}, kinds)
+            for part in {a["part"] for a in arrows}:
+                forces = [a["force"] for a in arrows if a["part"] == part]
+                for axis in range(3):
+                    self.assertAlmostEqual(sum(f[axis] for f in forces), 0, delta=0.01 * max(abs(x) for f in forces for x in f))
+            self.assertIn(why[folder][0] if falls else "It stands.", note["text"])
+
     def test_what_cannot_be_used(self):
         self.write_boxes("low", a=((0, 0, 0), (20, 20, 10)), b=((5, 0, 10), (25, 20, 20)))
         self.assert_fails(3, "no part is named 'wall'", "stability", "low", "--fixed", "wall")

@@ -29,7 +29,7 @@ export class App {
     this.isolated = null;    // a Set, or null
     this.best = null;        // {index, u}: an unsolved part on the motion to its furthest pose
     this.fall = null;        // {seconds, motions, arrows}: parts fall that nobody holds, over and over
-    this.cut = new Set();    // what a forced step cuts into
+    this.pierced = new Set();    // what a forced step cuts into
     this.step = -1;
     this.listeners = [];
     this.stale = true;
@@ -134,7 +134,7 @@ export class App {
     this.moving = new Set(this.line.steps[this.step]?.parts);
     this.held = new Set(this.model.held(this.mode, this.step));
     const forced = this.line.steps[this.step]?.step.forced;
-    this.cut = new Set(forced ? [this.model.index.get(forced.pair[1])] : []);
+    this.pierced = new Set(forced ? [this.model.index.get(forced.pair[1])] : []);
     this.paint();
   }
 
@@ -386,7 +386,7 @@ export class App {
       const body = this.parts.bodies[index];
       body.setColour(this.model.colour(index, this.colours));
       if (this.best?.blockers.has(index)) body.setGlow(AMBER, 0.45);
-      else if (this.cut.has(index)) body.setGlow(AMBER, 0.3);
+      else if (this.pierced.has(index)) body.setGlow(AMBER, 0.3);
       else if (this.held.has(index)) body.setGlow(HELD, 0.55);
       else if (index === this.selected) body.setGlow('#ffffff', 0.1);
       else if (index === this.hovered) body.setGlow('#ffffff', 0.16);

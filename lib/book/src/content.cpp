@@ -275,6 +275,8 @@ class ContentWriter {
     if (step.forced && step.forced->accepted.empty()) {
       page.warning = said("Not verified: {}.", words_.text(forced_text(unit_, *step.forced)));
       Facts why;
+      if (const std::string reached = reached_text(plan_, unit_, step); !reached.empty())
+        fact(why, "how far", words_.text(reached));
       if (!step.forced->reason.empty()) fact(why, "because", words_.text(step.forced->reason));
       if (const std::string advice = forced_advice(*step.forced); !advice.empty()) fact(why, "you can", advice);
       page.facts.insert(page.facts.begin(), why.begin(), why.end());  // before what may not have room

@@ -23,30 +23,65 @@ void draw_bar(Image& image, double share) {
       image.pixels[static_cast<std::size_t>(y) * image.width + x] = x < end ? 0xff3a6ea5u : 0xffe3e7ecu;
 }
 
-/// The poses of a step to be shown, as indices into those of each mover: from `furthest` away, or to there.
-std::vector<std::vector<std::size_t>> shown_poses(const BookStep& step, bool disassembly, double furthest) {
-  std::vector<std::vector<std::size_t>> out(kFrames + 1);
+/// Pose of a mover at a place of its path: the index of a pose, and the share of the motion to the next one.
+Pose pose_at(const BookMover& mover, double place) {
+  const std::size_t k = std::min(static_cast<std::size_t>(place), mover.poses.size() - 1);
+  const double share = place - static_cast<double>(k);
+  return share > 0 && k + 1 < mover.poses.size() ? screw_interpolate(mover.poses[k], mover.poses[k + 1], share)
+                                                 : mover.poses[k];
+}
+
+/// How far the parts of a step go from one pose to the next, turns included; `size`: of the assembly.
+double travel(const BookStep& step, std::size_t from, double size) {
+  double sum = 0;
   for (const BookMover& mover : step.movers) {
-    const std::size_t last = mover.poses.size() - 1, place = disassembly ? 0 : last;
-    std::size_t away = disassembly ? last : 0;
-    for (std::size_t k = 0; k <= last; ++k) {
-      const std::size_t at = disassembly ? k : last - k;
-      if ((mover.poses[at] * mover.center - mover.poses[place] * mover.center).norm() < furthest) continue;
-      away = at;
-      break;
+    const Pose &a = mover.poses[from], &b = mover.poses[from + 1];
+    sum += (b * mover.center - a * mover.center).norm() + 0.2 * size * angle_between(a.q, b.q);
+  }
+  return sum;
+}
+
+/// The places of a step's paths to be shown, at even speed: from `furthest` away, or to there.
+std::vector<double> shown_places(const BookStep& step, bool disassembly, double furthest, double size) {
+  if (step.movers.empty()) return {0};
+  const std::size_t last = step.movers.front().poses.size() - 1;
+  const double seat = disassembly ? 0 : static_cast<double>(last), open = static_cast<double>(last) - seat;
+  const auto far = [&](double place) {
+    return std::ranges::any_of(step.movers, [&](const BookMover& m) {
+      return (pose_at(m, place) * m.center - pose_at(m, seat) * m.center).norm() >= furthest;
+    });
+  };
+  double away = open;
+  for (std::size_t k = 1; k <= last && away == open; ++k)
+    if (const double place = std::abs(seat - static_cast<double>(k)); far(place)) {
+      double near = std::abs(seat - static_cast<double>(k - 1));
+      away = place;
+      for (int n = 0; n < 12; ++n) (far(0.5 * (near + away)) ? away : near) = 0.5 * (near + away);
     }
-    const double from = double(disassembly ? place : away), to = double(disassembly ? away : place);
-    for (int n = 0; n <= kFrames; ++n)
-      out[static_cast<std::size_t>(n)].push_back(
-          static_cast<std::size_t>(std::lround(from + (to - from) * n / kFrames)));
+  const double first = std::min(seat, away), end = std::max(seat, away);
+  // Length of the way up to each pose, and its inverse.
+  std::vector<double> length(last + 1, 0);
+  for (std::size_t k = 0; k < last; ++k) length[k + 1] = length[k] + travel(step, k, size);
+  const auto length_at = [&](double place) {
+    const std::size_t k = std::min(static_cast<std::size_t>(place), last == 0 ? 0 : last - 1);
+    return last == 0 ? 0 : length[k] + (place - static_cast<double>(k)) * (length[k + 1] - length[k]);
+  };
+  const double whole = length_at(end) - length_at(first);
+  std::vector<double> out;
+  for (int n = 0; n <= kFrames; ++n) {
+    const double goal = length_at(first) + whole * n / kFrames;
+    const auto after = std::ranges::upper_bound(length, goal);
+    const std::size_t k = after == length.begin() ? 0 : static_cast<std::size_t>(after - length.begin()) - 1;
+    const double part = k < last && length[k + 1] > length[k] ? (goal - length[k]) / (length[k + 1] - length[k]) : 0;
+    out.push_back(std::clamp(static_cast<double>(k) + part, first, end));
   }
   return out;
 }
 
-std::vector<PlacedPart> movers_of(const BookStep& step, const std::vector<std::size_t>& poses) {
+std::vector<PlacedPart> movers_of(const BookStep& step, double place) {
   std::vector<PlacedPart> out;
-  for (std::size_t m = 0; m < step.movers.size(); ++m)
-    for (const std::size_t part : step.movers[m].parts) out.push_back({part, step.movers[m].poses[poses[m]]});
+  for (const BookMover& mover : step.movers)
+    for (const std::size_t part : mover.parts) out.push_back({part, pose_at(mover, place)});
   return out;
 }
 
@@ -59,25 +94,24 @@ std::string book_gif(const Plan& plan, const Assembly& assembly, const FilmOptio
     steps.insert(steps.end(), chapter.steps.begin(), chapter.steps.end());
   if (steps.empty()) throw InputError(plan.assembly.source, "the plan has no steps, so there is nothing to show");
   std::ranges::sort(steps, {}, &BookStep::number);
-  const double furthest = 1.2 * (assembly.input_box.empty() ? 1 : assembly.input_box.size().maxCoeff());
+  const double size = assembly.input_box.empty() ? 1 : assembly.input_box.size().maxCoeff(), furthest = 1.2 * size;
 
   GifPalette palette;  // of small pictures of all steps
   for (const BookStep& step : steps) {
-    const auto poses = shown_poses(step, options.disassembly, furthest);
+    const std::vector<double> places = shown_places(step, options.disassembly, furthest, size);
     Image small =
-        illustrator.moment(step, movers_of(step, poses[kFrames / 2]), {options.width / 3, options.height / 3});
+        illustrator.moment(step, movers_of(step, places[places.size() / 2]), {options.width / 3, options.height / 3});
     draw_bar(small, 0.5);
     palette.count(small);
   }
   GifWriter gif(options.width, options.height, palette.colours());
   for (std::size_t s = 0; s < steps.size(); ++s) {
     options.on_step(s + 1, steps.size());
-    const auto poses = shown_poses(steps[s], options.disassembly, furthest);
-    for (std::size_t n = 0; n < poses.size(); ++n) {
-      if (n > 0 && poses[n] == poses[n - 1]) continue;
-      Image image = illustrator.moment(steps[s], movers_of(steps[s], poses[n]), {options.width, options.height});
-      draw_bar(image, (double(s) + double(n) / kFrames) / double(steps.size()));
-      gif.add(image, n + 1 == poses.size() ? kPause : kFrameTime);
+    const std::vector<double> places = shown_places(steps[s], options.disassembly, furthest, size);
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      Image image = illustrator.moment(steps[s], movers_of(steps[s], places[n]), {options.width, options.height});
+      draw_bar(image, (double(s) + double(n + 1) / double(places.size())) / double(steps.size()));
+      gif.add(image, n + 1 == places.size() ? kPause : kFrameTime);
     }
   }
   return gif.finish();

@@ -88,6 +88,7 @@ const std::vector<std::string>& book_labels() {
       "lies",
       "base",
       "of",
+      "how far",
       "because",
       "you can",
       "touches",

@@ -43,7 +43,7 @@ TEST(Film, ShowsEachStep) {
   const std::string gif = book_gif(plan, assembly, options);
   EXPECT_EQ(gif.substr(0, 6), "GIF89a");
   EXPECT_EQ(static_cast<unsigned char>(gif[6]), 160);
-  EXPECT_GE(pictures_in(gif), 2 * steps);
+  EXPECT_GE(pictures_in(gif), 10 * steps) << "it moves, whatever the number of poses";
   EXPECT_NE(gif.find("NETSCAPE2.0"), std::string::npos) << "it repeats";
   EXPECT_EQ(steps, plan.disassembly.size());
   steps = 0;

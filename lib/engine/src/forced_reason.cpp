@@ -18,9 +18,9 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kBends = 0.1;         // of the diagonal of the smaller part: more does not bend out of the way
-constexpr double kParallel = 0.999;    // cosine
-constexpr double kOpening = 1.05;      // points within this factor of the least radius are its rim
+constexpr double kBends = 0.1;       // of the diagonal of the smaller part: more does not bend out of the way
+constexpr double kParallel = 0.999;  // cosine
+constexpr double kOpening = 1.05;    // points within this factor of the least radius are its rim
 constexpr std::size_t kSectors = 8, kSurrounds = 6;
 
 enum class Kind { pressed, snap, deep };
@@ -74,6 +74,17 @@ std::optional<Fit> too_large(const Mesh& round, const Pose& pose, const Mesh& ar
   return fit;
 }
 
+/// One slide without a turn, whatever the number of poses.
+bool is_one_slide(const std::vector<Pose>& way) {
+  constexpr double kOnLine = 1e-6;  // of the travel, and radians
+  const Vec3 travel = way.back().t - way.front().t, along = travel.normalized();
+  return std::all_of(way.begin(), way.end(), [&](const Pose& pose) {
+    const Vec3 gone = pose.t - way.front().t;
+    return (gone - along.dot(gone) * along).norm() <= kOnLine * travel.norm() &&
+           angle_between(pose.q, way.front().q) <= kOnLine;
+  });
+}
+
 std::string quoted(const std::string& name) {
   std::string out = "'";
   for (const char c : name) out += c == '\'' ? "''" : std::string(1, c);
@@ -98,7 +109,7 @@ std::string hindrance_text(const Assembly& assembly, const MotionDepth& deepest,
     return fmt::format("pressed: '{}' and '{}' are in each other by {:.2g} when assembled, and by {:.2g} on the way",
                        moves.name, stays.name, assembly.overlap_of(deepest.part, deepest.other)->depth * to_input,
                        deepest.depth * to_input);
-  if (travel.norm() > tolerance && way.size() == 2) {
+  if (travel.norm() > tolerance && is_one_slide(way)) {
     const Vec3 along = travel.normalized();
     const auto says = [&](const Fit& fit, const Part& round, const Part& eye) {
       return fmt::format("'{}', of radius {:.3g} about the way out, does not pass the opening of radius {:.3g} of '{}'",

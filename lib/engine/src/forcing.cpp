@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "dismantle/verification/valid_stretch.h"
 #include "forced_reason.h"
 #include "oracle.h"
 #include "stopwatch.h"
@@ -134,8 +135,11 @@ const AttemptResult& Forcing::propose_forced(const Attempt& attempt, const Path&
   const double to_input = 1 / assembly_.normalization.scale;
   context.log(LogLevel::info,
               fmt::format("forced: '{}' past '{}', {}{:.4g} deep", assembly_.parts[removal.cut.deepest.part].name,
-                          assembly_.parts[removal.cut.deepest.other].name,
-                          removal.cut.lower_bound ? "at least " : "", removal.cut.deepest.depth * to_input));
+                          assembly_.parts[removal.cut.deepest.other].name, removal.cut.lower_bound ? "at least " : "",
+                          removal.cut.deepest.depth * to_input));
+  // An instant where it begins to cut in: the plan states how far the parts come.
+  removal.path =
+      divided_where_valid(assembly_, verifier_, moving, answer.attempt.fixed, std::move(removal.path), context);
   answer.forced = std::make_shared<const ForcedRemoval>(std::move(removal));
   answer.result.fail(Outcome::exhausted, answer.forced->cut.reason);
   answer.seconds = seconds_since(begin);

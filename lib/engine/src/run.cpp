@@ -19,6 +19,7 @@
 #include "dismantle/part_set.h"
 #include "oracle.h"
 #include "precedence.h"
+#include "reached.h"
 #include "reasons.h"
 #include "recorder.h"
 #include "replay.h"
@@ -156,6 +157,7 @@ class Run {
     if (simulator_.was_stopped()) sequence_.outcome = why_stopped(context_);
     RunResult result;
     result.plan = plan_of(recorder_.disassembly(), assembly_, options_);
+    set_reached(result.plan, recorder_.disassembly(), verifier_, context_);
     mark_accepted(result.plan, recorder_.disassembly(), assembly_, options_.constraints, verifier_, context_);
     result.outcome = sequence_.outcome;
     explain(result);

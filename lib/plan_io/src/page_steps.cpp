@@ -8,6 +8,7 @@
 #include <string>
 
 #include "dismantle/plan_io/drawn_tools.h"
+#include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/input_frame.h"
 #include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/thread_words.h"
@@ -84,10 +85,11 @@ StepsJson tools_json(const std::vector<PlanVerdict>& checks, const Holds& parts)
   return out;
 }
 
-/// One object per step; `checks_of`: what the objective says of a step. Without any step that says how the assembly
-/// lies, nothing is said of it.
-template <class ChecksOf>
-StepsJson steps_json(const Plan& plan, const std::vector<PlanStep>& steps, const StepUps& ups, ChecksOf checks_of) {
+/// One object per step; `checks_of`: what the objective says of a step; `how_far`: reached_text() of a step. Without
+/// any step that says how the assembly lies, nothing is said of it.
+template <class ChecksOf, class HowFar>
+StepsJson steps_json(const Plan& plan, const std::vector<PlanStep>& steps, const StepUps& ups, ChecksOf checks_of,
+                     HowFar how_far) {
   const InputFrame frame = input_frame(plan);
   const Holds holds(plan);
   StepsJson out = StepsJson::array();
@@ -102,6 +104,7 @@ StepsJson steps_json(const Plan& plan, const std::vector<PlanStep>& steps, const
     }
     if (const auto held = holds.of(checks_of(steps[s])); !held.empty()) step["hold"] = held;
     if (const auto threads = thread_words(plan, steps[s]); !threads.empty()) step["threads"] = threads;
+    if (const std::string far = how_far(steps[s]); !far.empty()) step["how_far"] = far;
     if (StepsJson tools = tools_json(checks_of(steps[s]), holds); !tools.empty()) step["tools"] = std::move(tools);
     out.push_back(std::move(step));
   }
@@ -118,8 +121,14 @@ void add_run(StepsJson& out, std::size_t first, std::size_t count, const std::st
 StepsJson page_steps(const Plan& plan) {
   const auto own = [](const PlanStep& step) -> const auto& { return step.checks; };
   const auto reversed = [&](const PlanStep& step) -> const auto& { return checks_of_assembly_step(plan, step); };
-  return {{"disassembly", steps_json(plan, plan.disassembly, disassembly_ups(plan), own)},
-          {"assembly", steps_json(plan, plan.assembly_steps, assembly_ups(plan), reversed)}};
+  const TextUnit unit = length_unit(plan);
+  const auto far = [&](const PlanStep& step) { return reached_text(plan, unit, step); };
+  const auto far_back = [&](const PlanStep& step) {
+    const std::size_t n = plan.disassembly.size();
+    return step.step >= 1 && step.step <= n ? far(plan.disassembly[n - step.step]) : std::string();
+  };
+  return {{"disassembly", steps_json(plan, plan.disassembly, disassembly_ups(plan), own, far)},
+          {"assembly", steps_json(plan, plan.assembly_steps, assembly_ups(plan), reversed, far_back)}};
 }
 
 StepsJson page_runs(const Plan& plan, const std::vector<StepRun>& runs) {

@@ -186,6 +186,34 @@ TEST(Explain, TheLineThatAcceptsAForcedStep) {
   }
 }
 
+// Law: how far a forced step comes is said in the unit of people, along its path; where nothing is known, nothing is said.
+TEST(Explain, HowFarAForcedStepComes) {
+  Rng rng(11);
+  const auto at = [](double z) { return Pose{{0, 0, z}, Eigen::Quaterniond::Identity()}; };
+  for (int round = 0; round < 50; ++round) {
+    Plan plan = partial_plan(3, rng);
+    PlanStep& step = plan.disassembly[0];
+    step.moves = {{name(0), {at(0), at(0.5), at(20), at(90)}}};
+    step.forced = PlanForced{.part = name(0), .other = name(1), .depth = 1, .reason = "it snaps"};
+    EXPECT_EQ(reached_text(plan, length_unit(plan), step), "");
+    EXPECT_EQ(explain_text(explain(plan, {})).find("how far"), std::string::npos);
+    const int far = 1 + static_cast<int>(rng.below(89));
+    step.moves[0].poses[2] = at(far);
+    step.transfer = 2;
+    const std::string text = reached_text(plan, length_unit(plan), step);
+    EXPECT_NE(text.find(" mm up (+Z)"), std::string::npos) << text;
+    EXPECT_TRUE(text.starts_with("part 0 comes ") && text.ends_with(" without cutting in")) << text;
+    EXPECT_NE(explain_text(explain(plan, {})).find("how far: " + text), std::string::npos);
+    const auto json = nlohmann::json::parse(explain_json(explain(plan, {})))["steps"][0]["forced"];
+    EXPECT_EQ(json["how_far"], text);
+    EXPECT_EQ(json["reached"][0]["pose"][2], far);
+    EXPECT_EQ(json["reached"][0]["part"], name(0));
+    step.moves[0].poses = {at(0), at(0.01), at(90)};
+    step.transfer = 1;
+    EXPECT_EQ(reached_text(plan, length_unit(plan), step), "part 0 cuts in from the beginning");
+  }
+}
+
 TEST(Explain, OrderIsThatOfThePlan) {
   Rng rng(5);
   for (int round = 0; round < 30; ++round) {

@@ -150,6 +150,7 @@ class RandomPlanMaker {
     if (chance(0.15)) step.separates.push_back(names(rest));
     if (chance(0.15))
       step.forced = PlanForced{name(*out.begin()), name(*rest.begin()), 0.01 * size_, 0, middle_, "it is held"};
+    if (step.forced && chance(0.5)) step.transfer = step.moves.front().poses.size() - 1;
     out_.plan.disassembly.push_back(std::move(step));
   }
 

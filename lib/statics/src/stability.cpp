@@ -8,6 +8,7 @@
 #include "bonds.h"
 #include "dismantle/geometry/length_unit.h"
 #include "dismantle/statics/balance.h"
+#include "dismantle/statics/describe.h"
 
 namespace dismantle::statics {
 namespace {
@@ -56,6 +57,20 @@ std::vector<PartMove> moves_of(const Pile& pile, const Motions& motion, std::siz
     if (way.norm() > 0) moves.push_back({static_cast<PartId>(i), way.normalized()});
   }
   return moves;
+}
+
+/// Why parts fall: those for which there is a reason besides what others do; else all that move.
+std::vector<std::string> reasons_of(const Pile& pile, const Motions& motion, const Assembly& assembly,
+                                    const std::vector<PartMove>& moves) {
+  std::vector<std::string> first, others;
+  for (const PartMove& m : moves) {
+    const std::string why = missing_text(pile, m.part, motion);
+    const bool begins = !why.empty() && why != kGivesWay;
+    (begins ? first : others)
+        .push_back("'" + assembly.parts[m.part].name + "' " +
+                   motion_text(pile.bodies[m.part], motion[m.part], pile.down) + (why.empty() ? "" : ": " + why));
+  }
+  return first.empty() ? others : first;
 }
 
 }  // namespace
@@ -136,7 +151,11 @@ StabilityReport judge_assembly(const AssemblyPile& assembly, const Stop& stop) {
     report.holds = least_holds(pile, stop);
     const Balance sliding = balance(pile, FrictionLaw::coulomb, stop);  // friction as it is, for people
     const Motions& motion = sliding.falling.empty() ? report.judgement.motion : sliding.falling;
-    if (!motion.empty()) report.moves = moves_of(pile, motion, assembly.options().fixed.size());
+    if (!motion.empty()) {
+      report.moves = moves_of(pile, motion, assembly.options().fixed.size());
+      report.why = reasons_of(pile, motion, assembly.assembly(), report.moves);
+      report.falling = motion;
+    }
   }
   if (std::any_of(report.at_tolerances.begin(), report.at_tolerances.end(), [&](Verdict v) { return v != verdict; }))
     report.judgement.verdict = Verdict::uncertain;

@@ -5,6 +5,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/statics/certificates.h"
+#include "dismantle/statics/describe.h"
 #include "dismantle/statics/stability.h"
 
 namespace dismantle::statics {
@@ -55,6 +56,7 @@ std::string report_json(const StabilityReport& report, const Assembly& assembly,
   json["moves"] = Json::array();
   for (const PartMove& m : report.moves)
     json["moves"].push_back({{"part", name_of(m.part, assembly)}, {"direction", json_of(m.direction)}});
+  json["why"] = report.why;
   json["critical_tilt_degrees"] = {{"x", degrees(report.tilt_x)},
                                    {"y", degrees(report.tilt_y)},
                                    {"-x", degrees(report.tilt_back_x)},
@@ -81,6 +83,22 @@ std::string report_json(const StabilityReport& report, const Assembly& assembly,
   json["not_checked"] = Json::array();
   if (report.pushes_left_out) json["not_checked"].push_back("least_push: too many parts");
   return json.dump();
+}
+
+std::string picture_of(const StabilityReport& report, const Assembly& assembly) {
+  const Pile& pile = report.pile;
+  const bool stands = report.judgement.verdict == Verdict::stands;
+  std::vector<std::uint32_t> of = report.holds.held;
+  if (stands)
+    for (std::uint32_t i = 0; i < assembly.parts.size(); ++i)
+      if (!pile.bodies[i].fixed) of.push_back(i);
+  PictureFrame frame;
+  frame.place = [](const Vec3& p) { return p; };
+  frame.names = [&](std::uint32_t body) {
+    return body < assembly.parts.size() ? std::vector{assembly.parts[body].name} : std::vector<std::string>();
+  };
+  return picture_json(pile, report.falling, stands ? report.judgement.forces : report.holds.forces, of,
+                      report.holds.held, frame);
 }
 
 std::string certificate_json(const StabilityReport& report, const Assembly& assembly) {

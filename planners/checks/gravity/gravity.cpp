@@ -71,6 +71,34 @@ std::shared_ptr<Gravity::Scene> Gravity::scene_of(const Assembly& assembly) cons
   return scene_;
 }
 
+/// How the bodies fall that somebody must hold, each as if all others did not move by themselves, and the forces on
+/// what is held. The sum of motions that all contacts allow is one, too.
+std::string Gravity::picture_of(const statics::Holds& holds, const statics::BuiltPile& built,
+                                std::span<const PlacedPart> parts, const Assembly& assembly) {
+  const statics::Pile& pile = built.pile;
+  statics::Motions all(pile.bodies.size());
+  for (const statics::HoldGroup& group : holds.groups) {
+    double most = 0;
+    for (std::size_t i = 0; i < group.motion.size(); ++i)
+      most = std::max(most, group.motion[i].v.norm() + group.motion[i].w.norm() * pile.bodies[i].radius);
+    for (std::size_t i = 0; i < group.motion.size() && most > 0; ++i) {
+      all[i].v += group.motion[i].v / most;
+      all[i].w += group.motion[i].w / most;
+    }
+  }
+  const Normalization& to = assembly.normalization;
+  statics::PictureFrame frame;
+  frame.place = [&](const Vec3& p) { return to.to_input(p); };
+  frame.scale = 1 / to.scale;
+  frame.names = [&](std::uint32_t body) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (built.body_of[i] == body) names.push_back(assembly.parts[parts[i].part].name);
+    return names;
+  };
+  return statics::picture_json(pile, all, holds.forces, holds.held, holds.held, frame);
+}
+
 Gravity::State Gravity::holds_of(Scene& scene, const statics::BuiltPile& built, std::span<const PlacedPart> parts,
                                  const Assembly& assembly) const {
   const statics::Holds holds = statics::least_holds_by_forces(built.pile, {}, &scene.judgements);
@@ -103,10 +131,12 @@ Gravity::State Gravity::holds_of(Scene& scene, const statics::BuiltPile& built, 
       const statics::Motion& motion = group.motion[body];
       if (!(motion.v.norm() + motion.w.norm() > 0)) continue;
       hold.motion = statics::motion_text(built.pile.bodies[body], motion, built.pile.down);
+      hold.why = statics::missing_text(built.pile, body, group.motion);
       break;
     }
     state.holds.push_back(std::move(hold));
   }
+  state.picture = picture_of(holds, built, parts, assembly);
   return state;
 }
 
@@ -209,6 +239,7 @@ StepVerdict Gravity::judge(const StepQuestion& question, const RunContext& conte
       held.insert(h.part);
       holds.push_back({{"part", assembly.parts[h.part].name}, {"when", when}, {"newton", rounded(h.newton)}});
       if (!h.motion.empty()) holds.back()["motion"] = h.motion;
+      if (!h.why.empty()) holds.back()["why"] = h.why;
     }
   };
   add(after, "after");
@@ -227,7 +258,8 @@ StepVerdict Gravity::judge(const StepQuestion& question, const RunContext& conte
   std::vector<std::string> texts;
   for (const Hold& h : after.holds)
     texts.push_back(h.motion.empty() ? fmt::format("Hold {}.", quoted(assembly, h.part))
-                                     : fmt::format("Hold {}: it {} otherwise.", quoted(assembly, h.part), h.motion));
+                                     : fmt::format("Hold {}: it {} otherwise{}{}.", quoted(assembly, h.part), h.motion,
+                                                   h.why.empty() ? "" : ", since ", h.why));
   std::vector<PartId> only_during;
   for (const Hold& h : during.holds)
     if (std::none_of(after.holds.begin(), after.holds.end(), [&](const Hold& a) { return a.part == h.part; }))
@@ -242,7 +274,12 @@ StepVerdict Gravity::judge(const StepQuestion& question, const RunContext& conte
   verdict.allowed = !too_many;
   verdict.reason = unclear ? "no set of holds was found with which it stands"
                            : fmt::format("{} part{} must be held", held.size(), held.size() == 1 ? "" : "s");
-  const Json data = {{"hold", holds}, {"hands", hands}, {"proved", after.proved && during.proved && turned.proved}};
+  Json data = {{"hold", holds}, {"hands", hands}, {"proved", after.proved && during.proved && turned.proved}};
+  // Of one state: the assembly with the new part, or without it.
+  if (const State& drawn = after.holds.empty() ? during : after; !drawn.picture.empty()) {
+    data["picture"] = Json::parse(drawn.picture);
+    data["picture"]["when"] = after.holds.empty() ? "during" : "after";
+  }
   verdict.notes.push_back(
       {"hold", fmt::format("{}", fmt::join(texts, " ")), data.dump(-1, ' ', false, Json::error_handler_t::replace)});
   return verdict;

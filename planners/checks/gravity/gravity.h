@@ -47,7 +47,7 @@ class Gravity final : public StepCheck {
   struct Hold {
     PartId part = 0;
     double newton = 0;
-    std::string motion;  // without the hold; empty: not known
+    std::string motion, why;  // without the hold; empty: not known
   };
   struct State {
     std::vector<Hold> holds;
@@ -55,6 +55,7 @@ class Gravity final : public StepCheck {
     statics::Gaps gaps = statics::Gaps::play;
     double push = 0;           // times the weight of the part that is put in, along its path
     statics::Numbers numbers;  // the proof; empty: none
+    std::string picture;       // picture_json(); empty: nothing is held
   };
   struct Scene {
     std::unique_ptr<const statics::BuiltPiles> piles;
@@ -62,6 +63,8 @@ class Gravity final : public StepCheck {
     statics::KnownJudgements judgements;
   };
   std::shared_ptr<Scene> scene_of(const Assembly& assembly) const;
+  static std::string picture_of(const statics::Holds& holds, const statics::BuiltPile& built,
+                                std::span<const PlacedPart> parts, const Assembly& assembly);
   State holds_of(Scene& scene, const statics::BuiltPile& built, std::span<const PlacedPart> parts,
                  const Assembly& assembly) const;
   State at_rest(Scene& scene, const Assembly& assembly, std::span<const PlacedPart> parts, const Eigen::Vector3d& up,

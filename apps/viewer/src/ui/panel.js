@@ -6,7 +6,15 @@ import {makePartList} from './partlist.js';
 import {makeProblems} from './problems.js';
 import {makeSteps} from './steps.js';
 
-function summary({plan, result}) {
+/** Of a page that shows one pile: does it stand? Without steps, the note says it in its first sentence. */
+function pileSummary(plan, {falls, text}) {
+  return element('div.summary', {}, element(`span.pill.${falls.length > 0 ? 'bad' : 'good'}`, {}, text.slice(0, text.indexOf('.'))),
+    element('span', {}, counted(plan.assembly.parts.length, 'part')));
+}
+
+function summary(model) {
+  const {plan, result} = model, pile = model.statics('disassembly', -1);
+  if (plan.disassembly.length === 0 && pile) return pileSummary(plan, pile);
   const forced = plan.disassembly.filter(isBad).length;
   const [word, ...words] = result.text.split(': ');
   return element('div.summary', {}, element(`span.pill.${result.word === 'complete' ? 'good' : 'bad'}`, {}, word[0].toUpperCase() + word.slice(1)),

@@ -3,7 +3,7 @@ import {spawnSync} from 'node:child_process';
 import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {dirname, join} from 'node:path';
 
-function run(folder, statuses, ...args) {
+export function run(folder, statuses, ...args) {
   const done = spawnSync(process.env.DISMANTLE, args, {cwd: folder, encoding: 'utf8'});
   if (!statuses.includes(done.status)) throw new Error(`dismantle ${args.join(' ')}: status ${done.status}\n${done.stdout}${done.stderr}`);
   return done.stdout;
@@ -20,7 +20,8 @@ export function planSample(folder, sample, ...options) {
   return result(folder, sample);
 }
 
-function box(lo, hi) {
+/** A box as OBJ. */
+export function box(lo, hi) {
   let text = '';
   for (let i = 0; i < 8; ++i) text += `v ${[0, 1, 2].map(k => (i >> k & 1 ? hi : lo)[k]).join(' ')}\n`;
   for (const quad of [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]) text += `f ${quad.map(i => i + 1).join(' ')}\n`;

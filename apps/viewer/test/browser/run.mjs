@@ -1,12 +1,12 @@
 // Tests the page in a real browser. Status 77 (skipped) when there is none.
 import assert from 'node:assert/strict';
-import {mkdtempSync, rmSync} from 'node:fs';
+import {mkdirSync, mkdtempSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import nodeTest, {after, before} from 'node:test';
 import {distance, placed, randomNumbers} from '../cases.mjs';
 import {CHROMIUM, hasChromium, launch, open} from './chromium.mjs';
-import {changed, changedPlan, explained, planBoxes, planSample} from './plans.mjs';
+import {box, changed, changedPlan, explained, planBoxes, planSample, run} from './plans.mjs';
 
 if (!hasChromium()) {
   console.log(`skipped: there is no ${CHROMIUM} (Debian: apt-get install chromium)`);
@@ -362,7 +362,7 @@ test('what falls without hands is played with the forces on it, and stops', asyn
     await page.evaluate(m => window.dismantle.setMode(m), mode);
     await page.evaluate(([m, s]) => window.dismantle.seek(window.dismantle.timeOf(m, s, 1)), [mode, at]);
     const before = await height();
-    await page.getByRole('button', {name: 'Show what falls without hands'}).click({timeout: 5000});
+    await page.getByRole('button', {name: 'Show what falls without hands'}).click({timeout: 60_000});
     const {parts, arrows} = await fall();
     assert.deepEqual(parts, [part]);
     assert.deepEqual(arrows.map(a => a.kind), ['weight', 'hold']);
@@ -375,6 +375,25 @@ test('what falls without hands is played with the forces on it, and stops', asyn
     assert.equal(await fall(), null);
     assert.ok(Math.abs(await height() - before) < 1e-9 * size);
   }
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+});
+
+test('a page of a pile says whether it stands, and shows what falls', async () => {
+  mkdirSync(join(folder, 'sign'));
+  const corners = {leg: [[0, 0, 0], [10, 10, 20]], plate: [[0, 0, 20], [60, 10, 25]]};
+  for (const [name, [lo, hi]] of Object.entries(corners)) writeFileSync(join(folder, 'sign', `${name}.obj`), box(lo, hi));
+  run(folder, [1], 'stability', 'sign', '-o', 'sign.out', '-q');
+  const page = await open(browser, join(folder, 'sign.out', 'index.html'));
+  assert.match(await page.locator('.summary').textContent(), /^It falls2 parts$/);
+  assert.match(await page.locator('article.card').first().textContent(), /'plate' tips towards \+x: nothing is under its half towards \+x\. Hold plate\./);
+  const corner = () => page.evaluate(() => window.dismantle.shownPoint('plate', [60, 5, 20])[2]);
+  await page.keyboard.press('d');
+  await page.evaluate('window.dismantle.fallAt(1)');
+  assert.deepEqual((await page.evaluate('window.dismantle.fall()')).parts, ['plate']);
+  assert.ok(await corner() < 19, 'its free end goes down');
+  await page.keyboard.press('s');
+  assert.equal((await page.evaluate('window.dismantle.section()')).axis, 'x', 'the section works as before');
   assert.deepEqual(page.complaints, []);
   await page.close();
 });
@@ -397,7 +416,7 @@ test('a forced step is shown where it begins to cut in', async () => {
     await page.evaluate(m => window.dismantle.setMode(m), mode);
     await page.evaluate(([m, s]) => window.dismantle.seek(window.dismantle.timeOf(m, s, 1)), [mode, mode === 'assembly' ? 0 : last]);
     assert.match(await page.locator('.steps li.open').textContent(), /how far.*comes .* without cutting in/);
-    await page.locator('.steps li.open').getByRole('button', {name: 'Show how far it comes'}).click({timeout: 5000});
+    await page.locator('.steps li.open').getByRole('button', {name: 'Show how far it comes'}).click({timeout: 60_000});
     const seen = await page.evaluate(n => window.dismantle.shownPoint(n, [1, 2, 3]), name);
     assert.ok(distance(seen, placed(reached, [1, 2, 3])) < 1e-6, `${mode}: ${seen}`);
     assert.equal((await page.evaluate('window.dismantle.places()')).length, 1);
@@ -556,11 +575,11 @@ onPage('notes on steps are kept, belong to the parts, and are written as YAML', 
   // And back from the file.
   const choose = (name, words) => page.locator('.steps li.open input[type=file]').setInputFiles({name, mimeType: 'application/yaml', buffer: Buffer.from(words)});
   await choose('notes.yaml', yaml);
-  await page.getByText('1 note read.').waitFor({timeout: 5000});
+  await page.getByText('1 note read.').waitFor({timeout: 60_000});
   assert.equal(await field.inputValue(), text);
   assert.equal(await page.evaluate('window.dismantle.notesYaml()'), yaml);
   await choose('other.yaml', 'notes:\n  - text\n');
-  await page.getByText('other.yaml: line 2').waitFor({timeout: 5000});
+  await page.getByText('other.yaml: line 2').waitFor({timeout: 60_000});
   assert.equal(await page.evaluate('window.dismantle.notesYaml()'), yaml, 'nothing of it is taken');
 });
 

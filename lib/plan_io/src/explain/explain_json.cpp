@@ -11,6 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json pose_json(const Pose& p) { return {p.t.x(), p.t.y(), p.t.z(), p.q.w(), p.q.x(), p.q.y(), p.q.z()}; }
+
 Json part_json(const LeftPart& part) {
   Json blockers = Json::array();
   for (const Blocker& b : part.blockers) {
@@ -19,12 +21,11 @@ Json part_json(const LeftPart& part) {
     if (b.overlap > 0) one["overlap"] = b.overlap;
     blockers.push_back(std::move(one));
   }
-  const Pose& p = part.best_pose;
   return {{"part", part.part},
           {"blocked_by", std::move(blockers)},
           {"travel", part.travel},
           {"turn_degrees", part.turn * 180 / std::numbers::pi},
-          {"best_pose", {p.t.x(), p.t.y(), p.t.z(), p.q.w(), p.q.x(), p.q.y(), p.q.z()}},
+          {"best_pose", pose_json(part.best_pose)},
           {"planner", part.planner},
           {"attempts", part.attempts},
           {"depth", part.depth},
@@ -71,6 +72,12 @@ std::string explain_json(const Explanation& e) {
                        {"depth", forced->depth},
                        {"assembled", forced->assembled},
                        {"reason", forced->reason}};
+      const PlanStep& step = plan.disassembly[s.step - 1];
+      if (const std::string text = reached_text(plan, length_unit(plan), step); !text.empty()) {
+        one["forced"]["how_far"] = text;
+        for (const PlanMove& move : step.moves)
+          one["forced"]["reached"].push_back({{"part", move.part}, {"pose", pose_json(move.poses.at(step.transfer))}});
+      }
       if (const std::string line = acceptance_line(*forced); !line.empty()) one["forced"]["accept"] = line;
       if (forced->certificate) one["forced"]["certificate"] = *forced->certificate + 1;
       if (forced->lower_bound) one["forced"]["lower_bound"] = true;

@@ -110,6 +110,8 @@ std::string steps_text(const Explanation& e, const TextUnit& unit) {
     const PlanStep& done = e.plan->disassembly.at(step.step - 1);
     if (done.forced) {
       out += fmt::format("FORCED: {}\n", forced_text(unit, *done.forced));
+      if (const std::string reached = reached_text(*e.plan, unit, done); !reached.empty())
+        out += fmt::format("{:>5}  how far: {}\n", "", reached);
       if (const std::string advice = forced_advice(*done.forced); !advice.empty())
         out += fmt::format("{:>5}  what you can do: {}\n", "", advice);
       if (!done.forced->reason.empty()) out += fmt::format("{:>5}  because: {}\n", "", done.forced->reason);

@@ -90,12 +90,14 @@ std::string forced_reasons(const Plan& plan) {
   for (std::size_t k = 0; k < plan.disassembly.size(); ++k) {
     const PlanStep& step = plan.disassembly[k];
     if (!step.forced) continue;
-    const std::string advice = forced_advice(*step.forced);
-    if (step.forced->reason.empty() && advice.empty()) continue;
-    out += fmt::format("- Step {} ({} in assembly) cuts {} into {}{}{}{}{}.\n", step_number(plan, k, true),
+    std::string why;
+    for (const std::string& text :
+         {step.forced->reason, reached_text(plan, length_unit(plan), step), forced_advice(*step.forced)})
+      if (!text.empty()) why += (why.empty() ? ": " : "; ") + markdown_text(text);
+    if (why.empty()) continue;
+    out += fmt::format("- Step {} ({} in assembly) cuts {} into {}{}.\n", step_number(plan, k, true),
                        step_number(plan, k, false), markdown_text(step.forced->part), markdown_text(step.forced->other),
-                       step.forced->reason.empty() ? "" : ": ", markdown_text(step.forced->reason),
-                       advice.empty() ? "" : "; ", markdown_text(advice));
+                       why);
   }
   return out.empty() ? out : "\nWhy steps are forced:\n\n" + out;
 }

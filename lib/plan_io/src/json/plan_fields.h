@@ -129,6 +129,7 @@ void step_fields(auto& v, Is<PlanStep> auto& s, StepKind kind) {
   v("step", s.step);
   v("moves", s.moves);
   v("transfer", s.transfer, assembly ? optional : unknown);
+  v("valid_to", s.transfer, assembly ? unknown : when(s.transfer > 0));
   v("separates", s.separates, figure, list(some_parts));
   v("max_penetration", s.max_penetration, figure, from_zero);
   v("seconds", s.seconds, figure, from_zero);

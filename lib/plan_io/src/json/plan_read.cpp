@@ -55,7 +55,9 @@ void check(const Place& place, const PlanStep& s) {
       moves.at(i).at("poses").fail(
           fmt::format("{} poses, but {} in the first move of this step", m.poses.size(), poses));
   }
-  if (s.transfer >= poses) place.at("transfer").fail(fmt::format("expected less than {}, the number of poses", poses));
+  if (s.transfer >= poses)
+    place.at(place.has("valid_to") ? "valid_to" : "transfer")
+        .fail(fmt::format("expected less than {}, the number of poses", poses));
   for (std::size_t i = 0; i < s.after.size(); ++i)
     if (s.after[i] == 0 || s.after[i] >= s.step) place.at("after").at(i).fail("expected the number of an earlier step");
 }

@@ -127,6 +127,7 @@ class Checker {
       if (step.forced) {
         ++result_.forced;
         note("", depths_.wrong(*step.forced, *motion, placed(passed_[index]), result_.forced_depth[index]));
+        note("", depths_.wrong_valid_to(step, *motion, placed(passed_[index])));
         if (!step.forced->accepted.empty()) accepted_holds(*step.forced, *motion, index);
       } else {
         motion_holds(*motion, passed_[index], "", result_.step_penetration[index]);

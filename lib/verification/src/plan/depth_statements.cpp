@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plan/violation_text.h"
+
 namespace dismantle {
 
 namespace {
@@ -32,6 +34,18 @@ std::optional<std::string> DepthStatements::wrong(const PlanForced& said, const 
   return fmt::format("it is forced and says that '{}' cuts {:.4g} into '{}'; measured: {:.4g}, '{}' into '{}'",
                      said.part, said.depth, said.other, measured / scale, found ? state_.name(found->part) : said.part,
                      found ? state_.name(found->other) : said.other);
+}
+
+std::optional<std::string> DepthStatements::wrong_valid_to(const PlanStep& said, const StepMotion& motion,
+                                                           const std::vector<PlacedPart>& fixed) const {
+  if (said.transfer == 0) return {};
+  if (!said.forced) return "it states 'valid_to', and is not forced";
+  if (said.transfer >= motion.path.size()) return "its 'valid_to' is no pose of its moves";
+  const Path beginning(motion.path.begin(), motion.path.begin() + static_cast<std::ptrdiff_t>(said.transfer) + 1);
+  const MotionCheck check = verifier_.check_motion(motion.moving, fixed, beginning, context_);
+  if (check.valid || check.interrupted) return {};
+  return fmt::format("it is forced and says that its motion is valid up to pose {}: {}", said.transfer,
+                     violation_text(check.violation.value_or(Violation{}), assembly_));
 }
 
 std::optional<std::string> DepthStatements::wrong(const PlanStepOverlap& said, const StepMotion& motion) {
@@ -70,7 +84,8 @@ std::optional<std::string> DepthStatements::wrong_flexible(const PlanAssembly& s
     if (!o.flexible) continue;
     const auto a = state_.find(o.a), b = state_.find(o.b);
     const InitialOverlap* found = a && b ? assembly_.overlap_of(*a, *b) : nullptr;
-    if (found == nullptr || !found->declared || !o.declared || !agrees(*o.declared, *found->declared, kOfTolerance * verifier_.options().max_penetration))
+    if (found == nullptr || !found->declared || !o.declared ||
+        !agrees(*o.declared, *found->declared, kOfTolerance * verifier_.options().max_penetration))
       return fmt::format("it takes '{}' or '{}' for flexible, and their shape and contact do not say so", o.a, o.b);
   }
   for (const PlanPart& part : said.parts) {

@@ -20,6 +20,9 @@ class DepthStatements {
   /// `measured`: set to the depth, assembly units.
   std::optional<std::string> wrong(const PlanForced& said, const StepMotion& motion,
                                    const std::vector<PlacedPart>& fixed, double& measured);
+  /// Is the motion valid up to the pose that the step states?
+  std::optional<std::string> wrong_valid_to(const PlanStep& said, const StepMotion& motion,
+                                            const std::vector<PlacedPart>& fixed) const;
   /// The same for a pair that a step moves past each other, with the other part at its current place.
   std::optional<std::string> wrong(const PlanStepOverlap& said, const StepMotion& motion);
   /// The same for the parts that the plan takes for flexible by their shape, compared with the measurement made for the

@@ -4,6 +4,9 @@
 
 #include <array>
 #include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "dismantle/constraints.h"
@@ -45,7 +48,8 @@ TEST(Gravity, WhatHangsInTheAirIsHeld) {
   const StepVerdict verdict = Gravity().judge(scene.question(), RunContext{});
   EXPECT_EQ(verdict.cost, 1);
   ASSERT_EQ(verdict.notes.size(), 1u);
-  EXPECT_NE(verdict.notes[0].text.find("falls down"), std::string::npos) << verdict.notes[0].text;
+  EXPECT_NE(verdict.notes[0].text.find("falls down otherwise, since nothing is under it."), std::string::npos)
+      << verdict.notes[0].text;
   EXPECT_NE(verdict.notes[0].data.find("\"proved\":true"), std::string::npos) << verdict.notes[0].data;
   EXPECT_EQ(Gravity().estimate(scene.question(), RunContext{}).cost, 1);
 }
@@ -62,7 +66,41 @@ TEST(Gravity, ABeamTipsAboutTheEdgeOfItsSupport) {
     if (std::abs(shift) < 1) continue;
     const std::string towards = shift > 0 ? "tips towards +x" : "tips towards -x";
     EXPECT_NE(verdict.notes.at(0).text.find(towards), std::string::npos) << verdict.notes[0].text;
+    const std::string why = std::string("since nothing is under its half towards ") + (shift > 0 ? "+x" : "-x");
+    EXPECT_NE(verdict.notes.at(0).text.find(why), std::string::npos) << verdict.notes[0].text;
   }
+}
+
+// Law: the picture shows what is held as falling, and the forces on it add up to nothing.
+TEST(Gravity, ThePictureHasTheFallAndTheForces) {
+  Rng rng(17);
+  unsigned pictures = 0;
+  for (int k = 0; k < 40; ++k) {
+    std::vector<Mesh> meshes{block(-2, -2, 0, 4, 4, 1)};
+    for (int n = 0; n < 4; ++n) meshes.push_back(block(rng.uniform(-3, 2), rng.uniform(-3, 2), 1 + n / 2, 1.7, 1.7, 1));
+    const Scene scene(meshes);
+    const StepVerdict verdict = Gravity().judge(scene.question(), RunContext{});
+    if (verdict.notes.empty()) continue;
+    const auto data = nlohmann::json::parse(verdict.notes[0].data);
+    ASSERT_TRUE(data.contains("picture")) << verdict.notes[0].data;
+    ++pictures;
+    std::set<std::string> falling;
+    for (const auto& fall : data["picture"]["falls"]) falling.insert(fall["parts"].begin(), fall["parts"].end());
+    std::map<std::string, Vector3d> sum;
+    std::map<std::string, double> most;
+    for (const auto& arrow : data["picture"]["arrows"]) {
+      const Vector3d force(arrow["force"][0], arrow["force"][1], arrow["force"][2]);
+      sum.try_emplace(arrow["part"], Vector3d::Zero()).first->second += force;
+      most[arrow["part"]] = std::max(most[arrow["part"]], force.norm());
+    }
+    for (const auto& hold : data["hold"])
+      if (hold["when"] == data["picture"]["when"]) {
+        EXPECT_TRUE(falling.contains(hold["part"])) << verdict.notes[0].data;
+        EXPECT_TRUE(sum.contains(hold["part"])) << verdict.notes[0].data;
+      }
+    for (const auto& [part, force] : sum) EXPECT_LT(force.norm(), 0.02 * most[part]) << part << verdict.notes[0].data;
+  }
+  EXPECT_GT(pictures, 10U);
 }
 
 // A brick that hangs over, with a stud of the brick below in it: nothing is drawn that would hold it.

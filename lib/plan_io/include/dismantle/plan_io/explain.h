@@ -75,6 +75,9 @@ DISMANTLE_API std::string explain_json(const Explanation& explanation);
 /// What a forced step does: "pin cuts 0.3 mm into hub (0.1 mm when assembled)".
 DISMANTLE_API std::string forced_text(const TextUnit& unit, const PlanForced& forced);
 DISMANTLE_API std::string forced_text(const Plan& plan, const PlanForced& forced);  ///< in length_unit()
+/// How far the parts of a forced step of Plan::disassembly come before they cut in: "pin comes 12 mm up (+Z) without
+/// cutting in"; empty: not known.
+DISMANTLE_API std::string reached_text(const Plan& plan, const TextUnit& unit, const PlanStep& step);
 /// The line of a configuration that accepts a forced step as it is; empty if it is accepted.
 DISMANTLE_API std::string acceptance_line(const PlanForced& forced);
 /// What the user can do beyond what its reason says, with that line; empty: nothing.

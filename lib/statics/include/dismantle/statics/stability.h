@@ -38,6 +38,7 @@ class DISMANTLE_API AssemblyPile {
   /// `factor` multiplies the tolerance of contacts.
   Pile pile(double factor = 1) const;
   const StabilityOptions& options() const { return options_; }
+  const Assembly& assembly() const { return assembly_; }
   bool unit_known() const;
 
  private:
@@ -59,6 +60,8 @@ struct StabilityReport {
   std::vector<Verdict> at_tolerances{};  ///< at half, once and twice the tolerance of contacts
   Holds holds{};
   std::vector<PartMove> moves{};
+  Motions falling{};               ///< the motion of `moves`; empty: nothing falls
+  std::vector<std::string> why{};  ///< "'plate' tips towards -x: nothing is under its half towards -x": what begins it
   std::optional<double> tilt_x{}, tilt_y{}, tilt_back_x{}, tilt_back_y{};  ///< rad; none: more than 89 degrees
   std::vector<LeastPush> pushes{};                                         ///< smallest first
   bool pushes_left_out = false;                                            ///< too many parts
@@ -71,6 +74,8 @@ DISMANTLE_API StabilityReport judge_assembly(const AssemblyPile& assembly, const
 /// The report as JSON text: the verdict and all that depends on it.
 DISMANTLE_API std::string report_json(const StabilityReport& report, const Assembly& assembly,
                                       const AssemblyPile& pile);
+/// picture_json() of what falls and of the forces, in the input's coordinates.
+DISMANTLE_API std::string picture_of(const StabilityReport& report, const Assembly& assembly);
 /// The certificate as JSON text: the model and the forces or the motion.
 DISMANTLE_API std::string certificate_json(const StabilityReport& report, const Assembly& assembly);
 /// Checks a stability.json without the solver; the contacts are found again. Empty: it holds; otherwise what is wrong.
