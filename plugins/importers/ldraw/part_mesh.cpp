@@ -4,7 +4,17 @@
 
 #include <algorithm>
 
+#include "dismantle/geometry/mesh_repair.h"
+
 namespace dismantle::ldraw {
+
+namespace {
+
+/// LDraw units. Files state three or four decimals, and primitives meet polygons with rounded corners: nearer than that,
+/// corners at open edges are one. Slivers between them would be walls without thickness.
+constexpr double kAccuracy = 0.01;
+
+}  // namespace
 
 void add_polygons(const LdrawFile& file, const Placement& placement, bool inverted, Mesh& mesh) {
   const bool mirrored = placement.linear.determinant() < 0;
@@ -39,6 +49,7 @@ const PartMesh& PartMeshes::of(const std::string& key) {
   if (known != built_.end()) return known->second;
   PartMesh part;
   collect(key, {}, false, part);
+  weld(part.mesh, kAccuracy);
   if (part.problem.empty() && part.mesh.triangles.empty()) part.problem = fmt::format("'{}' has no surface", key);
   return built_.emplace(key, std::move(part)).first->second;
 }

@@ -113,6 +113,24 @@ const char* const kModel =
     "1 16 0 -48 0 1 0 0 0 1 0 0 0 1 brick.dat\n"
     "0 FILE own.dat\n0 Own Part\n0 !LDRAW_ORG Unofficial_Part\n3 16 0 0 0 0 0 10 10 0 0\n3 16 0 0 0 10 0 0 0 10 0\n";
 
+TEST_F(Ldraw, RoundedCornersOfFilesAreOne) {
+  // A box of two halves whose common corners are rounded differently.
+  const auto half = [](const std::string& x, const std::string& far) {
+    const auto quad = [](const std::string& a, const std::string& b, const std::string& c, const std::string& d) {
+      return "4 16 " + a + " " + b + " " + c + " " + d + "\n";
+    };
+    const std::string a = x + " 0 0", b = x + " 0 10", c = x + " 10 10", d = x + " 10 0";
+    const std::string e = far + " 0 0", f = far + " 0 10", g = far + " 10 10", h = far + " 10 0";
+    return quad(a, e, f, b) + quad(b, f, g, c) + quad(c, g, h, d) + quad(d, h, e, a) + quad(e, h, g, f);
+  };
+  write("library/parts/halves.dat", "0 Halves\n0 !LDRAW_ORG Part\n0 BFC CERTIFY CCW\n" + half("0.0004", "20") +
+                                        "0 BFC INVERTNEXT\n1 16 0 0 0 -1 0 0 0 1 0 0 0 1 s/other.dat\n");
+  write("library/parts/s/other.dat", "0 Other\n0 !LDRAW_ORG Subpart\n0 BFC CERTIFY CCW\n" + half("0.0031", "20"));
+  const auto parts = read("0 Model\n1 4 0 0 0 1 0 0 0 1 0 0 0 1 halves.dat\n");
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_EQ(parts[0].mesh.vertices.size(), 12u);
+}
+
 TEST_F(Ldraw, SubModelsAreGroupsAndEmbeddedFilesParts) {
   const auto parts = read(kModel);
   ASSERT_EQ(parts.size(), 7u);
