@@ -19,6 +19,21 @@ cairo_status_t append_pdf(void* bytes, const unsigned char* data, unsigned lengt
   return CAIRO_STATUS_SUCCESS;
 }
 
+/// A line does not end between a sign and its axis: "towards -x".
+std::string with_signs_kept(const std::string& words) {
+  constexpr const char* kWordJoiner = "\u2060";
+  const auto at = [&](std::size_t i) { return i < words.size() ? words[i] : ' '; };
+  std::string out;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    out += words[i];
+    const bool before = i == 0 || words[i - 1] == ' ' || words[i - 1] == '(';
+    const bool axis = std::string("xyzXYZ").find(at(i + 1)) != std::string::npos;
+    const bool ends = std::string(" ,.;:)").find(at(i + 2)) != std::string::npos;
+    if (words[i] == '-' && before && axis && ends) out += kWordJoiner;
+  }
+  return out;
+}
+
 /// Writes the pages one after the other.
 class PdfPages {
  public:
@@ -142,7 +157,13 @@ class PdfPages {
     pango_font_description_free(font);
     pango_layout_set_width(layout.get(), width < 0 ? -1 : static_cast<int>(width * PANGO_SCALE));
     pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD_CHAR);
-    pango_layout_set_text(layout.get(), words.c_str(), static_cast<int>(words.size()));
+    // A long name goes on in the next line as it is: a hyphen would be read as part of it.
+    PangoAttrList* attributes = pango_attr_list_new();
+    pango_attr_list_insert(attributes, pango_attr_insert_hyphens_new(FALSE));
+    pango_layout_set_attributes(layout.get(), attributes);
+    pango_attr_list_unref(attributes);
+    const std::string kept = with_signs_kept(words);
+    pango_layout_set_text(layout.get(), kept.c_str(), static_cast<int>(kept.size()));
     return layout;
   }
   static double height_in(PangoLayout* layout) {
