@@ -84,8 +84,8 @@ Pose screw_interpolate(const Pose& a, const Pose& b, double u) {
 double screw_travel(const Pose& a, const Pose& b, const Eigen::Vector3d& center, double radius) {
   // On a screw every point keeps its speed |v + w x r|; r is taken at the start.
   const Twist s = twist_between(a, b);
-  const double center_way = (s.v + s.w.cross(a.q * center)).norm();
-  return (center_way + s.w.norm() * radius) * (1 + 1e-12);
+  const double center_travel = (s.v + s.w.cross(a.q * center)).norm();
+  return (center_travel + s.w.norm() * radius) * (1 + 1e-12);
 }
 
 }  // namespace dismantle

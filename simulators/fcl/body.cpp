@@ -58,8 +58,8 @@ Eigen::Vector3d into_all(const std::vector<Eigen::Vector3d>& inward, double& lea
 Inset make_inset(const Mesh& mesh, const std::vector<SolidPart>& solids, const std::vector<std::uint32_t>& shells,
                  double depth) {
   std::vector<Eigen::Vector3d> vertices = mesh.vertices;
-  const auto way = inset_displacements(mesh, solids, depth);
-  for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] += way[v];
+  const auto displacements = inset_displacements(mesh, solids, depth);
+  for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] += displacements[v];
   Inset inset{depth, CollisionMesh(vertices, mesh.triangles), {}};
   for (const auto v : shells) inset.shell_points.push_back(vertices[v]);
   return inset;
@@ -117,8 +117,8 @@ std::vector<Eigen::Vector3d> inset_displacements(const Mesh& mesh, const std::ve
         known.push_back(n);
     }
   }
-  std::vector<Eigen::Vector3d> way(mesh.vertices.size(), Eigen::Vector3d::Zero());
-  for (std::size_t v = 0; v < way.size(); ++v) {
+  std::vector<Eigen::Vector3d> displacements(mesh.vertices.size(), Eigen::Vector3d::Zero());
+  for (std::size_t v = 0; v < displacements.size(); ++v) {
     if (inward[v].empty()) continue;
     double least = 0;
     const Eigen::Vector3d w = into_all(inward[v], least);
@@ -129,9 +129,9 @@ std::vector<Eigen::Vector3d> inset_displacements(const Mesh& mesh, const std::ve
     for (int halving = 0; halving < 12 && !(inside(length) && inside(2 * length) && inside(4 * length)); ++halving)
       length /= 2;
     if (!inside(length)) continue;
-    way[v] = length * w;
+    displacements[v] = length * w;
   }
-  return way;
+  return displacements;
 }
 
 std::shared_ptr<const Body> make_body(const Part& part, const std::vector<double>& depths) {

@@ -137,18 +137,18 @@ class Companions {
   }
 
   /// True if some companion of the point follows it all the way.
-  bool follow(const std::vector<Vec3>& way) const {
+  bool follow(const std::vector<Vec3>& displacements) const {
     std::vector<char> there(offsets_.size(), 0);
     for (std::size_t k = 0; k < offsets_.size(); ++k) there[k] = offsets_[k].isZero();
-    spread(way[0], there);
-    for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    spread(displacements[0], there);
+    for (std::size_t i = 0; i + 1 < displacements.size(); ++i) {
       bool any = false;
       for (std::size_t k = 0; k < offsets_.size(); ++k) {
-        if (there[k] && segment_meets(at(way[i], k), at(way[i + 1], k), walls_)) there[k] = 0;
+        if (there[k] && segment_meets(at(displacements[i], k), at(displacements[i + 1], k), walls_)) there[k] = 0;
         any = any || there[k];
       }
       if (!any) return false;
-      spread(way[i + 1], there);
+      spread(displacements[i + 1], there);
     }
     return true;
   }
@@ -173,13 +173,13 @@ class Companions {
   std::vector<Eigen::Vector3i> offsets_;
 };
 
-/// True if no point of `part` passes a wall by more than `farthest`. `way`: poses of the part in the frame of the walls.
-/// `any`: some point passes one at all.
-bool none_passes(const Mesh& part, const Mesh& walls, const std::vector<Pose>& way, double farthest, bool& any) {
+/// True if no point of `part` passes a wall by more than `farthest`. `path`: poses of the part in the frame of the
+/// walls. `any`: some point passes one at all.
+bool none_passes(const Mesh& part, const Mesh& walls, const std::vector<Pose>& path, double farthest, bool& any) {
   const Companions companions(walls, farthest);
   for (const Vec3& p : surface_points(part, 2.0)) {
     std::vector<Vec3> trace;
-    for (const Pose& pose : way) trace.push_back(pose * p);
+    for (const Pose& pose : path) trace.push_back(pose * p);
     bool crosses = false;
     for (std::size_t i = 0; i + 1 < trace.size() && !crosses; ++i)
       crosses = segment_meets(trace[i], trace[i + 1], walls);
@@ -256,13 +256,13 @@ TEST(OpenWalls, NoMutatedMotionPassesThroughOne) {
       continue;
     }
     ++passed;
-    std::vector<Pose> way = dense(poses), back;
-    for (const Pose& pose : way) back.push_back(pose.inverse());
+    std::vector<Pose> path = dense(poses), back;
+    for (const Pose& pose : path) back.push_back(pose.inverse());
     const Mesh &a = *assembly.parts[0].mesh, &b = *assembly.parts[1].mesh;
     // The lattice of companions is coarse: it finds a way only where there is some room.
     const double farthest = 2 * kTolerance;
     bool any = false;
-    EXPECT_TRUE(none_passes(a, b, way, farthest, any)) << c.name << ", trial " << trial << ", pose " << k;
+    EXPECT_TRUE(none_passes(a, b, path, farthest, any)) << c.name << ", trial " << trial << ", pose " << k;
     EXPECT_TRUE(none_passes(b, a, back, farthest, any)) << c.name << ", trial " << trial << ", pose " << k;
     touched += any ? 1 : 0;
   }

@@ -252,7 +252,7 @@ class ContentWriter {
               instances.push_back(assembly_.parts[i].name);
         }
       }
-      const MotionSummary motion = summarize_motion(mover.poses, mover.center, leg_tolerance(size_));
+      const MotionSummary motion = summarize_motion(mover.poses, mover.center, stretch_tolerance(size_));
       const std::optional<double> guided = guided_distance_of(step, mover, motion);
       const std::string who = step.movers.size() > 1 ? names_of(mover.parts) + ": " : "";
       page.motions.push_back(who +
@@ -304,7 +304,7 @@ class ContentWriter {
     for (const std::size_t i : mover.parts)
       moving.emplace_back(i, options_.disassembly ? mover.poses.front() : mover.poses.back());
     for (const PlacedPart& part : step.standing) fixed.emplace_back(part.part, part.pose);
-    const Eigen::Vector3d outwards = (options_.disassembly ? 1 : -1) * motion.legs.front();
+    const Eigen::Vector3d outwards = (options_.disassembly ? 1 : -1) * motion.stretches.front();
     return std::min(guided_distance(assembly_, moving, fixed, outwards), motion.length);
   }
 

@@ -53,11 +53,11 @@ struct Assembler::Scenery {
     place[group] = place[done.left_group(group - done.start_groups())];
   }
   /// The reversed disassembly path of step `i`, at the place of the group that its parts are inserted into.
-  Path way_in(std::size_t i) const { return backwards(displaced(place[done.left_group(i)], *steps[i].path)); }
+  Path insertion(std::size_t i) const { return backwards(displaced(place[done.left_group(i)], *steps[i].path)); }
 };
 
 /// Transfer from the layout to where the way in begins.
-struct Assembler::Way {
+struct Assembler::Found {
   Path path;  ///< empty: there is none
   double max_penetration = 0;
   unsigned depth = 0;
@@ -146,14 +146,14 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
 
 /// Leaves groups out of the layout that are in the way of an insertion. The automatic layout leaves room; poses given
 /// by the user may not.
-void Assembler::clear_ways_in(Scenery& scenery, const RunContext& context) const {
+void Assembler::clear_insertions(Scenery& scenery, const RunContext& context) const {
   for (std::size_t i = 0; i < scenery.steps.size(); ++i) {
     if (context.should_stop()) return;  // no more transfers are searched for
     const std::size_t from = scenery.done.left_group(i);
     std::vector<PlacedPart> others = scenery.others(i);
     // The parts that it passed on its way out need no check: the motion is the same.
     std::erase_if(others, [&](const PlacedPart& p) { return scenery.done.group(p.part, i + 1) == from; });
-    const MotionCheck check = verifier_.check_motion(scenery.steps[i].parts, others, scenery.way_in(i), context);
+    const MotionCheck check = verifier_.check_motion(scenery.steps[i].parts, others, scenery.insertion(i), context);
     if (check.interrupted) return;
     if (check.valid) continue;
     const Violation v = check.violation.value_or(Violation{});
@@ -213,8 +213,8 @@ class Assembler::Checker final : public PathChecker {
   std::vector<PartId> moving_;
 };
 
-Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, TransferPlanner& planner,
-                                   const RunContext& context) const {
+Assembler::Found Assembler::transfer(const Scenery& scenery, std::size_t i, TransferPlanner& planner,
+                                     const RunContext& context) const {
   const DisassemblyStep& step = scenery.steps[i];
   const std::size_t from = scenery.done.left_group(i), made = scenery.done.group_of_step(i);
   Scene scene{{}, scenery.others(i)};
@@ -257,15 +257,15 @@ Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, Transf
     result.fail(Outcome::crashed, "it threw something that is not a std::exception");
   }
   if (result.path() && checker.accepted(*result.path())) {
-    Way way;
-    way.path = result.path()->poses();
-    way.max_penetration = result.path()->max_penetration();
-    way.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-    way.depth = result.depth;
-    way.log = std::move(log);
-    return way;
+    Found found;
+    found.path = result.path()->poses();
+    found.max_penetration = result.path()->max_penetration();
+    found.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    found.depth = result.depth;
+    found.log = std::move(log);
+    return found;
   }
-  Way none;
+  Found none;
   none.log = std::move(log);
   none.problem = std::string(to_string(is_success(result.outcome()) ? Outcome::crashed : result.outcome()));
   if (!result.message.empty()) none.problem += ", " + result.message;
@@ -273,18 +273,18 @@ Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, Transf
 }
 
 /// Transfers of the steps [first, last) that need one, found by several threads with the present scenery.
-std::vector<Assembler::Way> Assembler::transfers(const Scenery& scenery, std::size_t first, std::size_t last,
-                                                 const RunContext& context) {
-  std::vector<Way> ways(last - first);
+std::vector<Assembler::Found> Assembler::transfers(const Scenery& scenery, std::size_t first, std::size_t last,
+                                                   const RunContext& context) {
+  std::vector<Found> transfers_found(last - first);
   const auto one = [&](std::size_t k, TransferPlanner& planner) {
     const std::size_t i = first + k;
     if (!scenery.missing[scenery.done.group_of_step(i)].empty() || scenery.steps[i].placement) return;
     if (context.should_stop())
-      ways[k].looked_for = false;
+      transfers_found[k].looked_for = false;
     else
-      ways[k] = transfer(scenery, i, planner, context);
+      transfers_found[k] = transfer(scenery, i, planner, context);
   };
-  const std::size_t threads = std::min<std::size_t>(std::max(1U, context.threads), ways.size());
+  const std::size_t threads = std::min<std::size_t>(std::max(1U, context.threads), transfers_found.size());
   while (planners_.size() < threads) {
     planners_.push_back(setup_.transfer_planner());
     if (!planners_.back()) throw PluginError("transfer_planner", "nothing was made");
@@ -293,28 +293,28 @@ std::vector<Assembler::Way> Assembler::transfers(const Scenery& scenery, std::si
   parallel_for(
       threads, context,
       [&](std::size_t thread) {
-        for (std::size_t k = next++; k < ways.size(); k = next++) one(k, *planners_[thread]);
+        for (std::size_t k = next++; k < transfers_found.size(); k = next++) one(k, *planners_[thread]);
       },
       [] { return false; });
-  return ways;
+  return transfers_found;
 }
 
-PlanStep Assembler::to_step(const Scenery& scenery, std::size_t i, const Way& way, const PlanStep& there) const {
+PlanStep Assembler::to_step(const Scenery& scenery, std::size_t i, const Found& found, const PlanStep& there) const {
   const DisassemblyStep& step = scenery.steps[i];
   PlanStep back = reversed(there);
-  back.max_penetration = std::max(there.max_penetration, way.max_penetration);
-  back.planner = way.path.empty() ? "" : setup_.transfer_planner_id;
-  back.seconds = way.seconds;
-  back.depth = way.depth;
-  back.transfer = way.path.empty() ? 0 : way.path.size() - 1;
+  back.max_penetration = std::max(there.max_penetration, found.max_penetration);
+  back.planner = found.path.empty() ? "" : setup_.transfer_planner_id;
+  back.seconds = found.seconds;
+  back.depth = found.depth;
+  back.transfer = found.path.empty() ? 0 : found.path.size() - 1;
   // If its group is not displaced, a step repeats the poses of the reversed disassembly exactly.
-  const Path in = scenery.way_in(i);
+  const Path in = scenery.insertion(i);
   std::size_t column = 0;  // of the way
   for (std::size_t k = 0; k < step.parts.size(); ++k) {
     std::vector<Pose> poses;
     const bool waits = !step.leaves(step.parts[k]);
     for (std::size_t at = 0; at < back.transfer; ++at)
-      poses.push_back(assembly_.normalization.pose_to_input(waits ? in.front()[k] : way.path[at][column]));
+      poses.push_back(assembly_.normalization.pose_to_input(waits ? in.front()[k] : found.path[at][column]));
     if (!waits) ++column;
     if (scenery.place[scenery.done.left_group(i)].is_identity())
       poses.insert(poses.end(), back.moves[k].poses.begin(), back.moves[k].poses.end());
@@ -338,32 +338,32 @@ AssemblyPlan Assembler::put_together(const Disassembly& done, const std::vector<
   };
   Scenery scenery(done);
   place_groups(scenery, context);
-  clear_ways_in(scenery, context);
+  clear_insertions(scenery, context);
 
   // In the order of the disassembly, so that the goal of a transfer is known before its search. A group that is left
   // out has another place from then on, so transfers found for later steps are discarded. A wave holds several steps
   // per thread, so that one long search does not leave other threads idle.
   const std::size_t wave = context.threads > 1 ? 16 * context.threads : 1;
   for (std::size_t first = 0; first < steps.size();) {
-    std::vector<Way> ways = transfers(scenery, first, std::min(first + wave, steps.size()), context);
+    std::vector<Found> transfers_found = transfers(scenery, first, std::min(first + wave, steps.size()), context);
     bool as_supposed = true;
-    for (std::size_t k = 0; k < ways.size() && as_supposed; ++k) {
+    for (std::size_t k = 0; k < transfers_found.size() && as_supposed; ++k) {
       const std::size_t i = first++, made = done.group_of_step(i);
       context.progress("assembly", i, steps.size(), assembly_.parts[steps[i].parts.front()].name);
-      for (const auto& [level, text] : ways[k].log) context.log(level, text);
-      if (!ways[k].looked_for) {
+      for (const auto& [level, text] : transfers_found[k].log) context.log(level, text);
+      if (!transfers_found[k].looked_for) {
         ++not_looked_for;
         scenery.leave_out(made, fmt::format("the way of {} from the layout was not looked for", names(i)));
         as_supposed = false;
       } else {
-        if (scenery.missing[made].empty() && !steps[i].placement && ways[k].path.empty()) {
-          scenery.leave_out(made,
-                            fmt::format("no way from the layout was found for {}: {}", names(i), ways[k].problem));
+        if (scenery.missing[made].empty() && !steps[i].placement && transfers_found[k].path.empty()) {
+          scenery.leave_out(
+              made, fmt::format("no way from the layout was found for {}: {}", names(i), transfers_found[k].problem));
           as_supposed = false;
         }
         if (!scenery.missing[made].empty()) problems.push_back(scenery.missing[made]);
       }
-      plan.steps.push_back(to_step(scenery, i, ways[k], written[i]));
+      plan.steps.push_back(to_step(scenery, i, transfers_found[k], written[i]));
     }
   }
   context.progress("assembly", steps.size(), steps.size());

@@ -36,13 +36,13 @@ class Assembler {
 
  private:
   struct Scenery;
-  struct Way;
+  struct Found;
   class Checker;
   void place_groups(Scenery& scenery, const RunContext& context) const;
-  void clear_ways_in(Scenery& scenery, const RunContext& context) const;
-  std::vector<Way> transfers(const Scenery& scenery, std::size_t first, std::size_t last, const RunContext& context);
-  Way transfer(const Scenery& scenery, std::size_t step, TransferPlanner& planner, const RunContext& context) const;
-  PlanStep to_step(const Scenery& scenery, std::size_t step, const Way& way, const PlanStep& there) const;
+  void clear_insertions(Scenery& scenery, const RunContext& context) const;
+  std::vector<Found> transfers(const Scenery& scenery, std::size_t first, std::size_t last, const RunContext& context);
+  Found transfer(const Scenery& scenery, std::size_t step, TransferPlanner& planner, const RunContext& context) const;
+  PlanStep to_step(const Scenery& scenery, std::size_t step, const Found& found, const PlanStep& there) const;
   Aabb box_of(PartId part, const Pose& pose) const;
 
   const Assembly& assembly_;

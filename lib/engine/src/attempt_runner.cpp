@@ -112,7 +112,7 @@ class AttemptRunner::Checker final : public PathChecker, public geometry::EdgeCh
     }
     NormalizedPath edge;
     edge.path = {from, to};
-    edge.way = edge.given_way = {0, 1};
+    edge.lengths = edge.given_lengths = {0, 1};
     const MotionCheck motion =
         runner_.verifier_.check_motion(ids_of(attempt_.moving), attempt_.fixed, edge.path, context_);
     if (!motion.valid) runner_.explain(motion, edge, answer);
@@ -200,18 +200,18 @@ void AttemptRunner::explain(const MotionCheck& motion, const NormalizedPath& wri
                         assembly_.unit.empty() ? "" : "; " + assembly_.unit);
 }
 
-ComputedAttempt AttemptRunner::check_proposal(const Attempt& attempt, const Path& way,
+ComputedAttempt AttemptRunner::check_proposal(const Attempt& attempt, const Path& path,
                                               const RunContext& context) const {
   const Clock::time_point begin = Clock::now();
   ComputedAttempt computed;
   PathResult& result = computed.answer.result;
-  if (way.empty() || way.front().size() != attempt.moving.size())
+  if (path.empty() || path.front().size() != attempt.moving.size())
     throw std::invalid_argument("a proposed way needs instants, and one pose per moving part in each");
   for (std::size_t i = 0; i < attempt.moving.size(); ++i)
-    if (!(way.front()[i].t == attempt.moving[i].pose.t) ||
-        !way.front()[i].q.coeffs().isApprox(attempt.moving[i].pose.q.coeffs()))
+    if (!(path.front()[i].t == attempt.moving[i].pose.t) ||
+        !path.front()[i].q.coeffs().isApprox(attempt.moving[i].pose.q.coeffs()))
       throw std::invalid_argument("a proposed way does not begin where its parts are");
-  PathCheck check = Checker(*this, attempt, context).check(way);
+  PathCheck check = Checker(*this, attempt, context).check(path);
   if (check.accepted()) {
     computed.answer.max_penetration = check.verified->max_penetration();
     computed.answer.out = check.verified->released();

@@ -42,8 +42,8 @@ class AttemptRunner {
   ComputedAttempt run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key, const AttemptResult* resumed,
                       const std::vector<SearchPause>& pauses, const RunContext& context) const;
 
-  /// Verifies a given path instead of searching. The columns of `way` are in the order of `attempt.moving`.
-  ComputedAttempt check_proposal(const Attempt& attempt, const Path& way, const RunContext& context) const;
+  /// Verifies a given path instead of searching. The columns of `path` are in the order of `attempt.moving`.
+  ComputedAttempt check_proposal(const Attempt& attempt, const Path& path, const RunContext& context) const;
 
   const std::string& planner_id() const { return planner_id_; }
 

@@ -78,22 +78,22 @@ double PathNormalizer::travel(const std::vector<Pose>& a, const std::vector<Pose
 }
 
 std::size_t NormalizedPath::given_instant(std::size_t segment, double u) const {
-  const std::size_t a = std::min(segment, way.size() - 1);
-  const std::size_t b = std::min(segment + 1, way.size() - 1);
-  const double place = way[a] + std::clamp(u, 0.0, 1.0) * (way[b] - way[a]);
-  const auto after = std::upper_bound(given_way.begin(), given_way.end(), place);
-  return after == given_way.begin() ? 0 : static_cast<std::size_t>(after - given_way.begin()) - 1;
+  const std::size_t a = std::min(segment, lengths.size() - 1);
+  const std::size_t b = std::min(segment + 1, lengths.size() - 1);
+  const double place = lengths[a] + std::clamp(u, 0.0, 1.0) * (lengths[b] - lengths[a]);
+  const auto after = std::upper_bound(given_lengths.begin(), given_lengths.end(), place);
+  return after == given_lengths.begin() ? 0 : static_cast<std::size_t>(after - given_lengths.begin()) - 1;
 }
 
-std::vector<double> PathNormalizer::ways(const Path& path, const std::vector<PlacedPart>& moving) const {
-  std::vector<double> way(path.size(), 0.0);
-  for (std::size_t k = 1; k < path.size(); ++k) way[k] = way[k - 1] + travel(path[k - 1], path[k], moving);
-  return way;
+std::vector<double> PathNormalizer::lengths_along(const Path& path, const std::vector<PlacedPart>& moving) const {
+  std::vector<double> lengths(path.size(), 0.0);
+  for (std::size_t k = 1; k < path.size(); ++k) lengths[k] = lengths[k - 1] + travel(path[k - 1], path[k], moving);
+  return lengths;
 }
 
 // Ramer-Douglas-Peucker on screw motions: an instant is dropped if it lies within the tolerance on the screw motion
 // between kept instants, at the parameter that follows from the path length.
-std::vector<std::size_t> PathNormalizer::essential(const Path& path, const std::vector<double>& way,
+std::vector<std::size_t> PathNormalizer::essential(const Path& path, const std::vector<double>& lengths,
                                                    const std::vector<PlacedPart>& moving) const {
   const std::size_t n = path.size();
   std::vector<bool> keep(n, false);
@@ -105,9 +105,9 @@ std::vector<std::size_t> PathNormalizer::essential(const Path& path, const std::
     open.pop_back();
     double worst = tolerance_;
     std::size_t where = 0;
-    const double length = way[last] - way[first];
+    const double length = lengths[last] - lengths[first];
     for (std::size_t k = first + 1; k < last; ++k) {
-      const double u = length > 0 ? (way[k] - way[first]) / length : 0.0;
+      const double u = length > 0 ? (lengths[k] - lengths[first]) / length : 0.0;
       for (std::size_t i = 0; i < moving.size(); ++i) there[i] = screw_interpolate(path[first][i], path[last][i], u);
       const double off = travel(path[k], there, moving);
       if (off > worst) {
@@ -131,15 +131,15 @@ NormalizedPath PathNormalizer::normalize(const Path& path, const std::vector<Pla
   Path clean_path = path;
   result.problem = clean(clean_path, moving, size_);
   if (!result.problem.empty()) return result;
-  result.given_way = ways(clean_path, moving);
-  const std::vector<std::size_t> kept = essential(clean_path, result.given_way, moving);
+  result.given_lengths = lengths_along(clean_path, moving);
+  const std::vector<std::size_t> kept = essential(clean_path, result.given_lengths, moving);
   result.path.push_back(clean_path.front());
-  result.way.push_back(0);
+  result.lengths.push_back(0);
   for (std::size_t j = 1; j < kept.size(); ++j) {
     const std::vector<Pose>& a = clean_path[kept[j - 1]];
     const std::vector<Pose>& b = clean_path[kept[j]];
-    const double way = travel(a, b, moving);
-    const double share = max_travel_ > 0 ? std::ceil(way / max_travel_) : 1.0;
+    const double moved = travel(a, b, moving);
+    const double share = max_travel_ > 0 ? std::ceil(moved / max_travel_) : 1.0;
     const double max_instants = 1e5;  // a thousand lengths of the assembly: the planner diverged
     if (!(share + static_cast<double>(result.path.size()) <= max_instants)) {
       result.problem =
@@ -153,13 +153,13 @@ NormalizedPath PathNormalizer::normalize(const Path& path, const std::vector<Pla
       if (p < pieces)
         for (std::size_t i = 0; i < moving.size(); ++i) instant[i] = screw_interpolate(a[i], b[i], u);
       result.path.push_back(std::move(instant));
-      const double begin = result.given_way[kept[j - 1]];
-      result.way.push_back(begin + u * (result.given_way[kept[j]] - begin));
+      const double begin = result.given_lengths[kept[j - 1]];
+      result.lengths.push_back(begin + u * (result.given_lengths[kept[j]] - begin));
     }
   }
   if (result.path.size() == 1) {  // a plan's move has at least two poses
     result.path.push_back(result.path.front());
-    result.way.push_back(0);
+    result.lengths.push_back(0);
   }
   return result;
 }

@@ -24,8 +24,8 @@ struct PartBall {
 /// A path as docs/plan-format.md requires it, or why there is none.
 struct NormalizedPath {
   Path path;
-  std::vector<double> way;        ///< for each instant, the length of the way from the start; assembly units
-  std::vector<double> given_way;  ///< the same for each instant of the given path
+  std::vector<double> lengths;        ///< for each instant, the length of the way from the start; assembly units
+  std::vector<double> given_lengths;  ///< the same for each instant of the given path
   std::string problem;            ///< not empty: the given path is unusable
 
   /// Index of the last given instant at or before parameter `u` in [0, 1] of `segment`, which begins at instant
@@ -49,8 +49,8 @@ class PathNormalizer {
 
  private:
   double travel(const std::vector<Pose>& a, const std::vector<Pose>& b, const std::vector<PlacedPart>& moving) const;
-  std::vector<double> ways(const Path& path, const std::vector<PlacedPart>& moving) const;
-  std::vector<std::size_t> essential(const Path& path, const std::vector<double>& way,
+  std::vector<double> lengths_along(const Path& path, const std::vector<PlacedPart>& moving) const;
+  std::vector<std::size_t> essential(const Path& path, const std::vector<double>& lengths,
                                      const std::vector<PlacedPart>& moving) const;
 
   std::vector<PartBall> balls_;  // by part id

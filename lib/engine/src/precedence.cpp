@@ -13,31 +13,31 @@ namespace dismantle {
 namespace {
 
 /// True for a path without rotation, along one line.
-bool is_straight(const std::vector<Pose>& way) {
-  const Eigen::Vector3d along = way.back().t - way.front().t;
-  for (const Pose& p : way) {
-    if (angle_between(p.q, way.front().q) > 0) return false;
-    if (along.cross(p.t - way.front().t).norm() > 1e-9 * along.norm()) return false;
+bool is_straight(const std::vector<Pose>& poses) {
+  const Eigen::Vector3d along = poses.back().t - poses.front().t;
+  for (const Pose& p : poses) {
+    if (angle_between(p.q, poses.front().q) > 0) return false;
+    if (along.cross(p.t - poses.front().t).norm() > 1e-9 * along.norm()) return false;
   }
   return true;
 }
 
 /// The way of one part in a step, with the box around all of it.
-struct PartWay {
+struct PartMotion {
   std::vector<Pose> poses;
   Aabb box;
 };
 
-std::vector<PartWay> ways_of(const DisassemblyStep& step, const std::vector<Aabb>& boxes) {
-  std::vector<PartWay> ways;
+std::vector<PartMotion> motions_of(const DisassemblyStep& step, const std::vector<Aabb>& boxes) {
+  std::vector<PartMotion> motions;
   for (std::size_t k = 0; k < step.parts.size(); ++k) {
     std::vector<Pose> poses;
     for (const auto& instant : *step.path) poses.push_back(instant[k]);
     if (poses.size() > 2 && is_straight(poses)) poses = {poses.front(), poses.back()};
     const Aabb around = geometry::SweptBoxes(poses, boxes[step.parts[k]]).whole();
-    ways.push_back({std::move(poses), around});
+    motions.push_back({std::move(poses), around});
   }
-  return ways;
+  return motions;
 }
 
 /// Asks the verifier only about pairs of parts whose boxes meet; most pairs of steps have none.
@@ -55,7 +55,7 @@ class Needs {
   const std::vector<Aabb>& boxes() const { return boxes_; }
 
   /// Does step b, with these ways of its parts, need the earlier step a?
-  bool operator()(std::size_t b, const std::vector<PartWay>& ways, std::size_t a) const {
+  bool operator()(std::size_t b, const std::vector<PartMotion>& motions, std::size_t a) const {
     const std::vector<PartId>&these = steps_[b].parts, &those = steps_[a].parts;
     for (const PartId id : these)
       if (contains(those, id)) return true;
@@ -63,8 +63,8 @@ class Needs {
     if (done_.group(these.front(), a) != done_.left_group(a)) return false;
     for (std::size_t k = 0; k < these.size(); ++k)
       for (std::size_t j = 0; j < those.size(); ++j)
-        if (ways[k].box.overlaps(begins_[a][j]) &&
-            !verifier_.passes(these[k], those[j], done_.pose(those[j], a), ways[k].poses))
+        if (motions[k].box.overlaps(begins_[a][j]) &&
+            !verifier_.passes(these[k], those[j], done_.pose(those[j], a), motions[k].poses))
           return true;
     return false;
   }
@@ -88,14 +88,14 @@ std::vector<std::vector<std::size_t>> needed_steps(const Disassembly& done, cons
   std::vector<std::vector<bool>> follows(n, std::vector<bool>(n, false));  // [b][a]: a has to come before b
   // Also after a time limit: it is cheap, and a wrong order is worse than a late end.
   for (std::size_t b = 0; b < n; ++b) {
-    const std::vector<PartWay> ways = ways_of(steps[b], needs.boxes());
+    const std::vector<PartMotion> motions = motions_of(steps[b], needs.boxes());
     // Latest first: steps implied by a later one are not checked.
     for (std::size_t a = b; a-- > 0;) {
       if (context.cancel.cancelled()) {
         needed.resize(b);
         return needed;
       }
-      if (follows[b][a] || !needs(b, ways, a)) continue;
+      if (follows[b][a] || !needs(b, motions, a)) continue;
       needed[b].push_back(a);
       follows[b][a] = true;
       for (std::size_t c = 0; c < a; ++c) follows[b][c] = follows[b][c] || follows[a][c];

@@ -156,7 +156,7 @@ Section Turned::section(double z) const {
     if (found < 2) continue;
     // Where the outline runs counter-clockwise seen against the axis, the material is on its left.
     if (first_up) std::swap(ends[0], ends[1]);
-    const Vector2d way = ends[1] - ends[0];
+    const Vector2d displacement = ends[1] - ends[0];
     s.area += (ends[0].x() * ends[1].y() - ends[0].y() * ends[1].x()) / 2;
     double from = std::atan2(ends[0].y(), ends[0].x()) / kStep, to = std::atan2(ends[1].y(), ends[1].x()) / kStep;
     if (to - from > kRays / 2.0) from += kRays;
@@ -166,9 +166,9 @@ Section Turned::section(double z) const {
     for (auto k = static_cast<long>(std::ceil(from - 0.37)); k + 0.37 <= to; ++k) {
       const double angle = (static_cast<double>(k) + 0.37) * kStep;
       const Vector2d ray(std::cos(angle), std::sin(angle));
-      const double down = ray.x() * way.y() - ray.y() * way.x();
+      const double down = ray.x() * displacement.y() - ray.y() * displacement.x();
       if (down == 0) continue;
-      const double r = (ends[0].x() * way.y() - ends[0].y() * way.x()) / down;
+      const double r = (ends[0].x() * displacement.y() - ends[0].y() * displacement.x()) / down;
       if (!(r > 0)) continue;
       const auto ray_index = static_cast<std::size_t>(((k % long{kRays}) + long{kRays}) % long{kRays});
       if (crossings[ray_index] == 0 || r < s.inner[ray_index]) s.inner[ray_index] = r;
@@ -222,9 +222,9 @@ std::vector<Loop> Turned::loops(double z) const {
     }
     loop.center = corners[0] + (twice != 0 ? Vector2d(loop.center / twice) : Vector2d(0, 0));
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Vector2d a = corners[i] - loop.center, b = corners[(i + 1) % corners.size()] - loop.center, way = b - a;
-      const double share = way.squaredNorm() > 0 ? std::clamp(-a.dot(way) / way.squaredNorm(), 0.0, 1.0) : 0;
-      const double near = (a + share * way).norm();
+      const Vector2d a = corners[i] - loop.center, b = corners[(i + 1) % corners.size()] - loop.center, side = b - a;
+      const double share = side.squaredNorm() > 0 ? std::clamp(-a.dot(side) / side.squaredNorm(), 0.0, 1.0) : 0;
+      const double near = (a + share * side).norm();
       loop.smallest = i == 0 ? near : std::min(loop.smallest, near);
       loop.largest = std::max(loop.largest, a.norm());
       loop.area += (a.x() * b.y() - a.y() * b.x()) / 2;
@@ -238,7 +238,6 @@ std::vector<Loop> Turned::loops(double z) const {
 }
 
 double Section::outer_max() const { return *std::max_element(outer.begin(), outer.end()); }
-double Section::inner_max() const { return *std::max_element(inner.begin(), inner.end()); }
 
 static double smallest_met(const Radii& radii) {
   double out = 0;
@@ -247,7 +246,6 @@ static double smallest_met(const Radii& radii) {
   return out;
 }
 
-double Section::outer_min() const { return smallest_met(outer); }
 double Section::inner_min() const { return smallest_met(inner); }
 
 Outline outline_of(const Radii& radii) {

@@ -25,9 +25,7 @@ struct Section {
   double area = 0;          ///< of the cut
 
   double outer_max() const;
-  double outer_min() const;  ///< of the rays that meet the part
-  double inner_max() const;
-  double inner_min() const;
+  double inner_min() const;  ///< of the rays that meet the part
 };
 
 /// Symmetry of radii by angle.

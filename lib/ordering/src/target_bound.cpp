@@ -13,7 +13,7 @@ TargetBound::TargetBound(Problem& problem, const UnitSet& start, std::size_t tar
       target_may_stay_(target_may_stay),
       variants_(problem.units()),
       cheapest_(problem.units(), kForbidden),
-      ways_(problem.units()),
+      options_(problem.units()),
       useful_(problem.units()),
       nothing_(problem.units()),
       everything_(problem.units(), true),
@@ -28,17 +28,18 @@ TargetBound::TargetBound(Problem& problem, const UnitSet& start, std::size_t tar
 }
 
 /// Ways that another one of the unit is not worse than are left out.
-void TargetBound::add_ways(std::size_t unit) {
-  std::vector<Way>& ways = ways_[unit];
+void TargetBound::add_options(std::size_t unit) {
+  std::vector<Option>& options = options_[unit];
   for (const VariantId v : variants_[unit]) {
     if (problem_.leaving(v).contains(target_) && problem_.leaving(v).size() > 1) continue;
-    Way way{problem_.leaving(v), problem_.blocking(v), problem_.least(v), v};
-    const auto is_better = [](const Way& a, const Way& b) {
+    Option option{problem_.leaving(v), problem_.blocking(v), problem_.least(v), v};
+    const auto is_better = [](const Option& a, const Option& b) {
       return a.leaving == b.leaving && b.blocking.includes(a.blocking) && a.least <= b.least;
     };
-    if (std::any_of(ways.begin(), ways.end(), [&](const Way& other) { return is_better(other, way); })) continue;
-    std::erase_if(ways, [&](const Way& other) { return is_better(way, other); });
-    ways.push_back(std::move(way));
+    if (std::any_of(options.begin(), options.end(), [&](const Option& other) { return is_better(other, option); }))
+      continue;
+    std::erase_if(options, [&](const Option& other) { return is_better(option, other); });
+    options.push_back(std::move(option));
   }
 }
 
@@ -63,12 +64,12 @@ void TargetBound::find_useful(const UnitSet& start, double known) {
     open.pop();
     if (useful_.contains(unit)) continue;
     useful_.insert(unit);
-    add_ways(unit);
-    for (const Way& way : ways_[unit]) {
-      way.leaving.each([&, with = cost](std::size_t u) { reach(u, with); });
-      UnitSet in_the_way = way.blocking;
-      in_the_way &= start;
-      in_the_way.each([&, before = cost](std::size_t u) { reach(u, before + cheapest_[u]); });
+    add_options(unit);
+    for (const Option& option : options_[unit]) {
+      option.leaving.each([&, with = cost](std::size_t u) { reach(u, with); });
+      UnitSet obstacles = option.blocking;
+      obstacles &= start;
+      obstacles.each([&, before = cost](std::size_t u) { reach(u, before + cheapest_[u]); });
     }
   }
   if (target_may_stay_) useful_.insert(target_);
@@ -76,45 +77,45 @@ void TargetBound::find_useful(const UnitSet& start, double known) {
 
 /// For each unit the way that costs least with all that has to leave before, each of these counted by itself, as far as
 /// it does not leave in any case; in the order in which they can leave. The last one is the target's, or there is none.
-std::vector<const TargetBound::Way*> TargetBound::supported(const UnitSet& left, const UnitSet& in_any_case) const {
+std::vector<const TargetBound::Option*> TargetBound::supported(const UnitSet& left, const UnitSet& in_any_case) const {
   constexpr double kShare = 1e-3;  // of the cost of what leaves in any case
   struct Open {
-    const Way* way;
+    const Option* option;
     std::size_t waits = 0;  // for so many units
     double before = 0;
   };
-  std::vector<Open> ways;
+  std::vector<Open> options;
   std::vector<std::vector<std::size_t>> waiting(problem_.units());
   using Entry = std::pair<double, std::size_t>;  // cost with all before, way
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> ready;
   (left - (left - useful_)).each([&](std::size_t u) {
-    for (const Way& way : ways_[u]) {
+    for (const Option& option : options_[u]) {
       std::size_t first = 0;
-      while (!way.leaving.contains(first)) ++first;
-      if (first != u || !left.includes(way.leaving)) continue;  // once for all units that leave
-      UnitSet in_the_way = way.blocking;
-      in_the_way &= left;
-      ways.push_back({&way, in_the_way.size(), 0});
-      in_the_way.each([&](std::size_t b) { waiting[b].push_back(ways.size() - 1); });
-      if (ways.back().waits == 0) ready.emplace(way.least, ways.size() - 1);
+      while (!option.leaving.contains(first)) ++first;
+      if (first != u || !left.includes(option.leaving)) continue;  // once for all units that leave
+      UnitSet obstacles = option.blocking;
+      obstacles &= left;
+      options.push_back({&option, obstacles.size(), 0});
+      obstacles.each([&](std::size_t b) { waiting[b].push_back(options.size() - 1); });
+      if (options.back().waits == 0) ready.emplace(option.least, options.size() - 1);
     }
   });
-  std::vector<const Way*> order;
+  std::vector<const Option*> order;
   UnitSet gone = nothing_;
   while (!ready.empty()) {
     const auto [cost, at] = ready.top();
     ready.pop();
-    const Way& way = *ways[at].way;
-    if (gone.intersects(way.leaving)) continue;
-    order.push_back(&way);
-    if (way.leaving.contains(target_)) return order;
-    const double counted = in_any_case.includes(way.leaving) ? kShare * cost : cost;
-    way.leaving.each([&](std::size_t u) {
+    const Option& option = *options[at].option;
+    if (gone.intersects(option.leaving)) continue;
+    order.push_back(&option);
+    if (option.leaving.contains(target_)) return order;
+    const double counted = in_any_case.includes(option.leaving) ? kShare * cost : cost;
+    option.leaving.each([&](std::size_t u) {
       gone.insert(u);
       for (const std::size_t other : waiting[u]) {
-        Open& open = ways[other];
+        Open& open = options[other];
         open.before += counted;
-        if (--open.waits == 0) ready.emplace(open.way->least + open.before, other);
+        if (--open.waits == 0) ready.emplace(open.option->least + open.before, other);
       }
     });
   }
@@ -127,19 +128,19 @@ std::vector<VariantId> TargetBound::some_order(const UnitSet& left) const {
   UnitSet in_any_case = nothing_;
   constexpr int kRounds = 6;  // what one round removes costs little in the next one
   for (int round = 0; round < kRounds; ++round) {
-    const std::vector<const Way*> order = supported(left, in_any_case);
+    const std::vector<const Option*> order = supported(left, in_any_case);
     if (order.empty()) break;
     UnitSet needed = nothing_;
     needed.insert(target_);
     std::vector<VariantId> variants;
     double cost = 0;
-    for (auto way = order.rbegin(); way != order.rend(); ++way) {
-      if (!needed.intersects((*way)->leaving)) continue;
-      UnitSet before = (*way)->blocking;
+    for (auto option = order.rbegin(); option != order.rend(); ++option) {
+      if (!needed.intersects((*option)->leaving)) continue;
+      UnitSet before = (*option)->blocking;
       before &= left;
       needed |= before;
-      variants.push_back((*way)->variant);
-      cost += (*way)->least;
+      variants.push_back((*option)->variant);
+      cost += (*option)->least;
     }
     if (!(cost < least - kSame)) break;
     least = cost;
@@ -168,22 +169,22 @@ double TargetBound::least_if_it_stays(const UnitSet& left) const {
 }
 
 /// What must have left before the way is free, as far as is known; false: it never gets free.
-bool TargetBound::needs(const Way& way, const UnitSet& left, UnitSet& units) const {
+bool TargetBound::needs(const Option& option, const UnitSet& left, UnitSet& units) const {
   units = nothing_;
-  if (!left.includes(way.leaving)) return false;
-  UnitSet in_the_way = way.blocking;
-  in_the_way &= left;
-  in_the_way.each([&](std::size_t u) { units |= necessary_[u]; });
-  return !units.intersects(way.leaving);
+  if (!left.includes(option.leaving)) return false;
+  UnitSet obstacles = option.blocking;
+  obstacles &= left;
+  obstacles.each([&](std::size_t u) { units |= necessary_[u]; });
+  return !units.intersects(option.leaving);
 }
 
 /// From below: what is known after each round is necessary.
 void TargetBound::find_necessary(const UnitSet& left) {
   left.each([&](std::size_t u) {
-    necessary_[u] = useful_.contains(u) && !ways_[u].empty() ? nothing_ : everything_;
+    necessary_[u] = useful_.contains(u) && !options_[u].empty() ? nothing_ : everything_;
     necessary_[u].insert(u);
   });
-  UnitSet active = left, of_way;
+  UnitSet active = left, of_option;
   active &= useful_;
   constexpr int kRounds = 8;
   bool changed = true;
@@ -191,8 +192,8 @@ void TargetBound::find_necessary(const UnitSet& left) {
     changed = false;
     active.each([&](std::size_t u) {
       UnitSet common = everything_;
-      for (const Way& way : ways_[u])
-        if (needs(way, left, of_way)) common &= of_way;
+      for (const Option& option : options_[u])
+        if (needs(option, left, of_option)) common &= of_option;
       common.insert(u);
       if (common == necessary_[u]) return;
       necessary_[u] = std::move(common);
@@ -206,8 +207,8 @@ double TargetBound::of(const UnitSet& left) {
   find_necessary(left);
   double best = target_may_stay_ ? least_if_it_stays(left) : kForbidden;
   UnitSet before;
-  for (const Way& way : ways_[target_])
-    if (needs(way, left, before)) best = std::min(best, way.least + least_of(before));
+  for (const Option& option : options_[target_])
+    if (needs(option, left, before)) best = std::min(best, option.least + least_of(before));
   known_.emplace(left, best);
   return best;
 }

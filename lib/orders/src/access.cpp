@@ -17,8 +17,9 @@ constexpr std::uint64_t kEffort = 6000;  // judged steps for each part
 
 Eigen::Vector3d last_direction(const Trace& path) {
   if (path.size() < 2) return Eigen::Vector3d::Zero();
-  const Eigen::Vector3d way = path.back().front().t - path[path.size() - 2].front().t;
-  return way.norm() > 1e-12 ? Eigen::Vector3d(way.normalized()) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  const Eigen::Vector3d displacement = path.back().front().t - path[path.size() - 2].front().t;
+  return displacement.norm() > 1e-12 ? Eigen::Vector3d(displacement.normalized())
+                                     : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
 }  // namespace
@@ -52,7 +53,7 @@ struct Access::Impl {
 
   PartAccess to(std::size_t unit);
   bool search(std::size_t unit, PartAccess& access);
-  order::WayToTarget confirmed(std::size_t unit, double known);
+  order::TargetOrder confirmed(std::size_t unit, double known);
 
   const Disassembly& plan;
   const Constraints& constraints;
@@ -63,48 +64,48 @@ struct Access::Impl {
 };
 
 /// The cheapest way whose steps are all confirmed; a refusal is known in the next round.
-order::WayToTarget Access::Impl::confirmed(std::size_t unit, double known_cost) {
+order::TargetOrder Access::Impl::confirmed(std::size_t unit, double known_cost) {
   const order::UnitSet all(removals.units(), true);
   constexpr int kRounds = 16;
-  order::WayToTarget way;
+  order::TargetOrder found;
   for (int round = 0; round < kRounds; ++round) {
     order::Effort effort{kEffort, [this] { return context.should_stop(); }};
-    way = order::way_to(removals, all, unit, known_cost, effort);
+    found = order::order_to(removals, all, unit, known_cost, effort);
     order::UnitSet left = all;
-    const bool valid = std::all_of(way.best.variants.begin(), way.best.variants.end(), [&](order::VariantId v) {
+    const bool valid = std::all_of(found.best.variants.begin(), found.best.variants.end(), [&](order::VariantId v) {
       if (!removals.confirm(v, left)) return false;
       left -= removals.leaving(v);
       return true;
     });
-    if (valid) return way;
+    if (valid) return found;
   }
-  way.best = {};
-  way.complete = false;
-  return way;
+  found.best = {};
+  found.complete = false;
+  return found;
 }
 
 /// False: no way was found.
 bool Access::Impl::search(std::size_t unit, PartAccess& access) {
   removals.use_objective(false);
-  order::WayToTarget way = confirmed(unit, order::kForbidden);
-  access.least_depth = way.bound < order::kForbidden ? static_cast<std::size_t>(std::ceil(way.bound - 1e-6)) : 1;
-  if (way.best.variants.empty()) return false;
+  order::TargetOrder found = confirmed(unit, order::kForbidden);
+  access.least_depth = found.bound < order::kForbidden ? static_cast<std::size_t>(std::ceil(found.bound - 1e-6)) : 1;
+  if (found.best.variants.empty()) return false;
   if (!removals.exact()) access.least_depth = 1;
-  access.optimal = way.best.variants.size() == access.least_depth;
+  access.optimal = found.best.variants.size() == access.least_depth;
   if (!objective.empty()) {
     removals.use_objective(true);
     order::Task task;
     task.start = order::UnitSet(removals.units(), true);
-    const double first = order::cost_of(removals, task, way.best.variants);
-    order::WayToTarget cheaper = confirmed(unit, first);
-    if (!cheaper.best.variants.empty() && cheaper.best.variants.size() <= way.best.variants.size())
-      way.best = cheaper.best;
+    const double first = order::cost_of(removals, task, found.best.variants);
+    order::TargetOrder cheaper = confirmed(unit, first);
+    if (!cheaper.best.variants.empty() && cheaper.best.variants.size() <= found.best.variants.size())
+      found.best = cheaper.best;
     else
-      way.best.cost = first;
-    access.cost = std::max(0.0, way.best.cost - Removals::kStep * static_cast<double>(way.best.variants.size()));
-    access.cheapest = removals.exact() && cheaper.bound >= way.best.cost - 1e-6;
+      found.best.cost = first;
+    access.cost = std::max(0.0, found.best.cost - Removals::kStep * static_cast<double>(found.best.variants.size()));
+    access.cheapest = removals.exact() && cheaper.bound >= found.best.cost - 1e-6;
   }
-  for (const order::VariantId v : way.best.variants)
+  for (const order::VariantId v : found.best.variants)
     access.steps.push_back({removals.leaving_parts(v), removals.direction(v), false});
   return true;
 }

@@ -43,17 +43,18 @@ bool sweeps_over(const Aabb& box, const Aabb& other, const Vector3d& d) {
 
 /// Of the last stretch; zero: a rotation in place.
 Vector3d last_direction(const Path& path) {
-  const Vector3d way = path.back().front().t - path[path.size() - 2].front().t;
-  return way.norm() > 1e-12 ? Vector3d(way.normalized()) : Vector3d(Vector3d::Zero());
+  const Vector3d displacement = path.back().front().t - path[path.size() - 2].front().t;
+  return displacement.norm() > 1e-12 ? Vector3d(displacement.normalized()) : Vector3d(Vector3d::Zero());
 }
 
 bool is_straight(const Path& path) {
   const Vector3d out = last_direction(path);
   for (std::size_t i = 0; i < path.front().size(); ++i)
     for (const std::vector<Pose>& poses : path) {
-      const Vector3d way = poses[i].t - path.front()[i].t;
+      const Vector3d displacement = poses[i].t - path.front()[i].t;
       if (!poses[i].q.isApprox(path.front()[i].q, 1e-12) ||
-          (way - way.dot(out) * out).norm() > 1e-9 * (1 + way.norm()) || way.dot(out) < 0)
+          (displacement - displacement.dot(out) * out).norm() > 1e-9 * (1 + displacement.norm()) ||
+          displacement.dot(out) < 0)
         return false;
     }
   return !out.isZero();
@@ -72,10 +73,10 @@ Removals::Removals(const Assembly& assembly, const Disassembly& plan, const Cons
   in_group_ = UnitSet(units());
   add_planned(plan);
   std::vector<Vector3d> used;
-  for (const Way& way : ways_)
-    if (used.size() < kMostUsed && !way.out.isZero() &&
-        std::none_of(used.begin(), used.end(), [&](const Vector3d& d) { return d.dot(way.out) > kSameDirection; }))
-      used.push_back(way.out);
+  for (const Motion& motion : motions_)
+    if (used.size() < kMostUsed && !motion.out.isZero() &&
+        std::none_of(used.begin(), used.end(), [&](const Vector3d& d) { return d.dot(motion.out) > kSameDirection; }))
+      used.push_back(motion.out);
   for (std::size_t u = 0; u < units(); ++u) add_straight(u, used);
   find_least();
 }
@@ -106,29 +107,29 @@ void Removals::add_planned(const Disassembly& plan) {
       const Pose& own = plan.pose(id, k);
       return (own.t - at.t).norm() < 1e-9 * far_ && own.q.isApprox(at.q, 1e-9);
     };
-    Way way{UnitSet(units()), UnitSet(units()), UnitSet(units()), UnitSet(units()), step.parts, {}, {}, false, 0};
+    Motion motion{UnitSet(units()), UnitSet(units()), UnitSet(units()), UnitSet(units()), step.parts, {}, {}, false, 0};
     bool moved_as_one = true;
     UnitSet rest(units());
     for (const Part& part : assembly_.parts) {
       if (plan.group(part.id, k) != group) continue;
       moved_as_one = moved_as_one && stands(part.id);
-      (contains(step.parts, part.id) ? way.units : rest).insert(unit_of_[part.id]);
+      (contains(step.parts, part.id) ? motion.units : rest).insert(unit_of_[part.id]);
     }
-    if (!moved_as_one || way.units.intersects(rest)) continue;
+    if (!moved_as_one || motion.units.intersects(rest)) continue;
     const Pose back = at.inverse();
     for (const std::vector<Pose>& poses : *step.path) {
-      way.path.emplace_back();
-      for (const Pose& pose : poses) way.path.back().push_back(back * pose);
+      motion.path.emplace_back();
+      for (const Pose& pose : poses) motion.path.back().push_back(back * pose);
     }
-    for (Pose& pose : way.path.front()) pose = Pose{};
-    way.out = last_direction(way.path);
+    for (Pose& pose : motion.path.front()) pose = Pose{};
+    motion.out = last_direction(motion.path);
     // A straight one is looked at again, on a path as long as it takes to be past everything.
-    if (is_straight(way.path))
-      way.straight = true,
-      way.path = {way.path.front(), std::vector<Pose>(way.parts.size(), {far_ * way.out, Pose{}.q})};
+    if (is_straight(motion.path))
+      motion.straight = true,
+      motion.path = {motion.path.front(), std::vector<Pose>(motion.parts.size(), {far_ * motion.out, Pose{}.q})};
     else
-      way.free = rest;
-    add(std::move(way));
+      motion.free = rest;
+    add(std::move(motion));
   }
 }
 
@@ -147,23 +148,23 @@ void Removals::add_straight(std::size_t unit, const std::vector<Vector3d>& used)
   });
   for (const Vector3d& out : all) {
     const bool known = std::any_of(of_unit_[unit].begin(), of_unit_[unit].end(), [&](VariantId v) {
-      return ways_[v].straight && ways_[v].units.size() == 1 && ways_[v].out.dot(out) > kSameDirection;
+      return motions_[v].straight && motions_[v].units.size() == 1 && motions_[v].out.dot(out) > kSameDirection;
     });
     if (known) continue;
     const std::vector<PartId>& parts = parts_[unit];
-    Way way{UnitSet(units()), UnitSet(units()), UnitSet(units()), UnitSet(units()), parts, {}, out, true, 0};
-    way.units.insert(unit);
-    way.path = {std::vector<Pose>(parts.size()), std::vector<Pose>(parts.size(), Pose{far_ * out, Pose{}.q})};
-    add(std::move(way));
+    Motion motion{UnitSet(units()), UnitSet(units()), UnitSet(units()), UnitSet(units()), parts, {}, out, true, 0};
+    motion.units.insert(unit);
+    motion.path = {std::vector<Pose>(parts.size()), std::vector<Pose>(parts.size(), Pose{far_ * out, Pose{}.q})};
+    add(std::move(motion));
   }
 }
 
-void Removals::add(Way way) {
+void Removals::add(Motion motion) {
   std::size_t first = 0;
-  while (!way.units.contains(first)) ++first;
-  if (way.units.size() > 1) in_group_ |= way.units;
-  of_unit_[first].push_back(ways_.size());
-  ways_.push_back(std::move(way));
+  while (!motion.units.contains(first)) ++first;
+  if (motion.units.size() > 1) in_group_ |= motion.units;
+  of_unit_[first].push_back(motions_.size());
+  motions_.push_back(std::move(motion));
 }
 
 /// What a check says that reads nothing but the motion is known before an order is.
@@ -172,73 +173,77 @@ void Removals::find_least() {
     const StepCheckTraits t = item.check->traits();
     if (t.reads_present || t.reads_path || t.remembers_direction || t.remembers_orientation || t.remembers_shape)
       continue;
-    for (VariantId v = 0; v < ways_.size(); ++v)
-      ways_[v].least += item.weight * judge(item, v, UnitSet(units()), kNone).cost;
+    for (VariantId v = 0; v < motions_.size(); ++v)
+      motions_[v].least += item.weight * judge(item, v, UnitSet(units()), kNone).cost;
   }
 }
 
 bool Removals::may_leave(VariantId v, const UnitSet& present) {
-  Way& way = ways_[v];
-  if (way.blocking.intersects(present)) return false;
+  Motion& motion = motions_[v];
+  if (motion.blocking.intersects(present)) return false;
   bool held = false;
-  way.units.each([&](std::size_t u) { held = held || needs_gone_[u].intersects(present - way.units); });
+  motion.units.each([&](std::size_t u) { held = held || needs_gone_[u].intersects(present - motion.units); });
   if (held) return false;
   bool free = true;
-  (present - way.free - way.units).each([&](std::size_t u) {
+  (present - motion.free - motion.units).each([&](std::size_t u) {
     if (!free) return;
-    free = !in_the_way(way, u);
-    (free ? way.free : way.blocking).insert(u);
+    free = !obstructs(motion, u);
+    (free ? motion.free : motion.blocking).insert(u);
   });
   return free;
 }
 
 const UnitSet& Removals::blocking(VariantId v) {
-  Way& way = ways_[v];
+  Motion& motion = motions_[v];
   std::vector<std::size_t> open;
-  (UnitSet(units(), true) - way.free - way.blocking - way.units).each([&](std::size_t u) { open.push_back(u); });
+  (UnitSet(units(), true) - motion.free - motion.blocking - motion.units).each([&](std::size_t u) {
+    open.push_back(u);
+  });
   std::vector<char> answers(open.size());
   parallel_for(
-      open.size(), context_, [&](std::size_t i) { answers[i] = in_the_way(way, open[i]) ? 1 : 0; },
+      open.size(), context_, [&](std::size_t i) { answers[i] = obstructs(motion, open[i]) ? 1 : 0; },
       [] { return false; });
-  for (std::size_t i = 0; i < open.size(); ++i) (answers[i] != 0 ? way.blocking : way.free).insert(open[i]);
-  way.needs = way.blocking;
-  way.units.each([&](std::size_t u) { way.needs |= needs_gone_[u]; });
-  way.needs -= way.units;
-  return way.needs;
+  for (std::size_t i = 0; i < open.size(); ++i) (answers[i] != 0 ? motion.blocking : motion.free).insert(open[i]);
+  motion.needs = motion.blocking;
+  motion.units.each([&](std::size_t u) { motion.needs |= needs_gone_[u]; });
+  motion.needs -= motion.units;
+  return motion.needs;
 }
 
-bool Removals::in_the_way(const Way& way, std::size_t unit) const {
-  for (std::size_t column = 0; column < way.parts.size(); ++column)
+bool Removals::obstructs(const Motion& motion, std::size_t unit) const {
+  for (std::size_t column = 0; column < motion.parts.size(); ++column)
     for (const PartId other : parts_[unit])
-      if (meets(way, column, other)) return true;
+      if (meets(motion, column, other)) return true;
   return false;
 }
 
-bool Removals::meets(const Way& way, std::size_t column, PartId other) const {
-  const PartId part = way.parts[column];
-  if (way.straight && !sweeps_over(assembly_.parts[part].mesh->box(), assembly_.parts[other].mesh->box(), way.out))
+bool Removals::meets(const Motion& motion, std::size_t column, PartId other) const {
+  const PartId part = motion.parts[column];
+  if (motion.straight &&
+      !sweeps_over(assembly_.parts[part].mesh->box(), assembly_.parts[other].mesh->box(), motion.out))
     return false;
   std::vector<Pose> path;
-  for (const std::vector<Pose>& poses : way.path) path.push_back(poses[column]);
+  for (const std::vector<Pose>& poses : motion.path) path.push_back(poses[column]);
   if (!verifier_.passes(part, other, Pose{}, path)) return true;
-  return !way.straight && !verifier_.apart({{part, path.back()}}, {{other, Pose{}}});
+  return !motion.straight && !verifier_.apart({{part, path.back()}}, {{other, Pose{}}});
 }
 
 bool Removals::confirm(VariantId v, const UnitSet& present) {
-  Way& way = ways_[v];
-  if (way.straight) return true;  // pair by pair
-  const std::vector<PlacedPart> fixed = placed(present - way.units);
+  Motion& motion = motions_[v];
+  if (motion.straight) return true;  // pair by pair
+  const std::vector<PlacedPart> fixed = placed(present - motion.units);
   std::vector<PlacedPart> at_end;
-  for (std::size_t i = 0; i < way.parts.size(); ++i) at_end.push_back({way.parts[i], way.path.back()[i]});
-  if (verifier_.apart(at_end, fixed) && verifier_.check_motion(way.parts, fixed, way.path, context_).valid) return true;
+  for (std::size_t i = 0; i < motion.parts.size(); ++i) at_end.push_back({motion.parts[i], motion.path.back()[i]});
+  if (verifier_.apart(at_end, fixed) && verifier_.check_motion(motion.parts, fixed, motion.path, context_).valid)
+    return true;
   // The plan has it with less around it.
-  way.blocking |= present - way.units;
-  way.free -= present;
+  motion.blocking |= present - motion.units;
+  motion.free -= present;
   exact_ = false;
   return false;
 }
 
-bool Removals::alike(VariantId a, VariantId b) const { return ways_[a].out.dot(ways_[b].out) > kSameDirection; }
+bool Removals::alike(VariantId a, VariantId b) const { return motions_[a].out.dot(motions_[b].out) > kSameDirection; }
 
 bool Removals::remembers() const {
   return std::any_of(objective_.items.begin(), objective_.items.end(), [&](const ObjectiveItem& item) {
@@ -268,16 +273,16 @@ double Removals::cost(VariantId v, const UnitSet& rest, VariantId previous) {
 }
 
 StepVerdict Removals::judge(const ObjectiveItem& item, VariantId v, const UnitSet& rest, VariantId previous) const {
-  const std::vector<PlacedPart> moving = placed(ways_[v].units), present = placed(rest);
+  const std::vector<PlacedPart> moving = placed(motions_[v].units), present = placed(rest);
   std::vector<PlacedPart> put_in;
-  if (previous != kNone) put_in = placed(ways_[previous].units);
-  const StepQuestion before{assembly_, put_in,
-                            {},        previous == kNone ? Vector3d(Vector3d::Zero()) : Vector3d(-ways_[previous].out),
-                            nullptr,   objective_.up};
+  if (previous != kNone) put_in = placed(motions_[previous].units);
+  const StepQuestion before{
+      assembly_, put_in,       {}, previous == kNone ? Vector3d(Vector3d::Zero()) : Vector3d(-motions_[previous].out),
+      nullptr,   objective_.up};
   const StepQuestion question{assembly_,
                               moving,
                               present,
-                              Vector3d(-ways_[v].out),
+                              Vector3d(-motions_[v].out),
                               nullptr,
                               objective_.up,
                               previous == kNone ? nullptr : &before};
@@ -299,6 +304,6 @@ std::vector<PlacedPart> Removals::placed(const UnitSet& units) const {
   return list;
 }
 
-std::vector<PartId> Removals::leaving_parts(VariantId v) const { return ways_[v].parts; }
+std::vector<PartId> Removals::leaving_parts(VariantId v) const { return motions_[v].parts; }
 
 }  // namespace dismantle

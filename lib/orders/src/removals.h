@@ -25,11 +25,11 @@ class Removals final : public order::Problem {
   std::size_t units() const override { return parts_.size(); }
   const std::vector<order::VariantId>& variants_of(std::size_t unit) const override { return of_unit_[unit]; }
   bool leaves_alone(std::size_t unit) const override { return !in_group_.contains(unit); }
-  const order::UnitSet& leaving(order::VariantId v) const override { return ways_[v].units; }
+  const order::UnitSet& leaving(order::VariantId v) const override { return motions_[v].units; }
   bool may_leave(order::VariantId v, const order::UnitSet& present) override;
   const order::UnitSet& blocking(order::VariantId v) override;
   double cost(order::VariantId v, const order::UnitSet& rest, order::VariantId previous) override;
-  double least(order::VariantId v) const override { return by_objective_ ? kStep + ways_[v].least : 1; }
+  double least(order::VariantId v) const override { return by_objective_ ? kStep + motions_[v].least : 1; }
   std::uint64_t classes(order::VariantId /*v*/) const override { return 0; }
   double change() const override { return 0; }
   bool alike(order::VariantId a, order::VariantId b) const override;
@@ -43,14 +43,14 @@ class Removals final : public order::Problem {
   const std::vector<PartId>& parts_of(std::size_t unit) const { return parts_[unit]; }
   std::vector<PartId> leaving_parts(order::VariantId v) const;
   /// Unit, of the last stretch; zero: a rotation.
-  const Eigen::Vector3d& direction(order::VariantId v) const { return ways_[v].out; }
+  const Eigen::Vector3d& direction(order::VariantId v) const { return motions_[v].out; }
   /// Does the verifier confirm the step? If not, it is not proposed again.
   bool confirm(order::VariantId v, const order::UnitSet& present);
   /// False: a step was refused. It is then taken for blocked by all that was present, which may be too much.
   bool exact() const { return exact_; }
 
  private:
-  struct Way {
+  struct Motion {
     order::UnitSet units;
     order::UnitSet free, blocking;  // units that are known not to be in the way, or to be
     order::UnitSet needs;           // blocking(): these, and those that have to leave before
@@ -75,10 +75,10 @@ class Removals final : public order::Problem {
   void add_units();
   void add_planned(const Disassembly& plan);
   void add_straight(std::size_t unit, const std::vector<Eigen::Vector3d>& used);
-  void add(Way way);
+  void add(Motion motion);
   void find_least();
-  bool in_the_way(const Way& way, std::size_t unit) const;
-  bool meets(const Way& way, std::size_t column, PartId other) const;
+  bool obstructs(const Motion& motion, std::size_t unit) const;
+  bool meets(const Motion& motion, std::size_t column, PartId other) const;
   StepVerdict judge(const ObjectiveItem& item, order::VariantId v, const order::UnitSet& rest,
                     order::VariantId previous) const;
   std::vector<PlacedPart> placed(const order::UnitSet& units) const;
@@ -93,7 +93,7 @@ class Removals final : public order::Problem {
   std::vector<std::size_t> unit_of_;
   std::vector<order::UnitSet> needs_gone_;  // by unit: constraints.before
   order::UnitSet in_group_;
-  std::vector<Way> ways_;
+  std::vector<Motion> motions_;
   std::vector<std::vector<order::VariantId>> of_unit_;
   bool by_objective_ = false, exact_ = true;
   std::unordered_map<CostKey, double, CostHash> costs_;

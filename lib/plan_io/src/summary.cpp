@@ -40,7 +40,7 @@ std::string moves_text(const Plan& plan, const InputFrame& frame, TextUnit unit,
   if (!frame.unit_known) unit.name = "units";
   const double size = box.empty() ? 1 : std::max(box.size().maxCoeff(), 1e-300);
   const Eigen::Vector3d middle = box.empty() ? plan.assembly.center : box.center();
-  const MotionSummary motion = summarize_motion(step.moves.front().poses, middle, leg_tolerance(size));
+  const MotionSummary motion = summarize_motion(step.moves.front().poses, middle, stretch_tolerance(size));
   return fmt::format("       {}{}\n",
                      motion_words(in_unit(motion, unit.factor), unit.name, frame.up, frame.lies(step.up)),
                      step.separates.empty() ? ", and stays there" : "");

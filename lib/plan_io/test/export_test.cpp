@@ -158,19 +158,19 @@ TEST(MotionWords, LegsOfAPathAreFoundAgain) {
   std::uniform_real_distribution<double> any(-1, 1);
   for (int trial = 0; trial < 50; ++trial) {
     std::vector<Pose> poses{Pose{}};
-    std::vector<Eigen::Vector3d> legs;
+    std::vector<Eigen::Vector3d> stretches;
     for (int l = 0; l < 3; ++l) {
-      Eigen::Vector3d leg = Eigen::Vector3d::Zero();
-      leg[(trial + l) % 3] = 5 + 3 * any(random);
-      for (int k = 1; k <= 20; ++k) poses.push_back({poses.back().t + leg / 20, Eigen::Quaterniond::Identity()});
-      legs.push_back(leg);
+      Eigen::Vector3d stretch = Eigen::Vector3d::Zero();
+      stretch[(trial + l) % 3] = 5 + 3 * any(random);
+      for (int k = 1; k <= 20; ++k) poses.push_back({poses.back().t + stretch / 20, Eigen::Quaterniond::Identity()});
+      stretches.push_back(stretch);
     }
     const MotionSummary motion = summarize_motion(poses, {any(random), 0, 0}, 0.05);
-    ASSERT_EQ(motion.legs.size(), 3u);
+    ASSERT_EQ(motion.stretches.size(), 3u);
     double length = 0;
     for (int l = 0; l < 3; ++l) {
-      EXPECT_LT((motion.legs[static_cast<std::size_t>(l)] - legs[static_cast<std::size_t>(l)]).norm(), 1e-9);
-      length += legs[static_cast<std::size_t>(l)].norm();
+      EXPECT_LT((motion.stretches[static_cast<std::size_t>(l)] - stretches[static_cast<std::size_t>(l)]).norm(), 1e-9);
+      length += stretches[static_cast<std::size_t>(l)].norm();
     }
     EXPECT_NEAR(motion.length, length, 1e-9);
     EXPECT_EQ(motion.turn, 0);
@@ -219,7 +219,7 @@ TEST(MotionWords, AScrewIsMeasuredOnItsAxis) {
   EXPECT_EQ(point_on_axis({Pose{}, Pose{{1, 2, 3}, Pose{}.q}}, {4, 5, 6}), Eigen::Vector3d(4, 5, 6));
 }
 
-/// The slides of a puzzle are all told, at any orientation; a bent path with as many legs is not.
+/// The slides of a puzzle are all told, at any orientation; a bent path with as many stretches is not.
 TEST(MotionWords, SlidesAreToldOneByOne) {
   Rng rng(5);
   for (const bool slides : {true, false})
@@ -227,16 +227,16 @@ TEST(MotionWords, SlidesAreToldOneByOne) {
       const Eigen::Quaterniond turned =
           Eigen::Quaterniond(rng.normal(), rng.normal(), rng.normal(), rng.normal()).normalized();
       std::vector<Pose> poses{Pose{}};
-      const int legs = 7;
-      for (int k = 0; k < legs; ++k) {
-        Eigen::Vector3d leg = (1 + k) * Eigen::Vector3d::Unit(k % 3);
-        if (!slides) leg[(k + 1) % 3] = 0.5 * k;
-        poses.push_back({poses.back().t + turned * leg, Pose{}.q});
+      const int stretches = 7;
+      for (int k = 0; k < stretches; ++k) {
+        Eigen::Vector3d stretch = (1 + k) * Eigen::Vector3d::Unit(k % 3);
+        if (!slides) stretch[(k + 1) % 3] = 0.5 * k;
+        poses.push_back({poses.back().t + turned * stretch, Pose{}.q});
       }
       const std::string words = motion_words(summarize_motion(poses, {0, 0, 0}, 1e-3), "mm", kZ);
       std::size_t told = 1;
       for (std::size_t at = words.find(", then "); at != std::string::npos; at = words.find(", then ", at + 1)) ++told;
-      EXPECT_EQ(told, slides ? legs : 1) << words;
+      EXPECT_EQ(told, slides ? stretches : 1) << words;
     }
 }
 

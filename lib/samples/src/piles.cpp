@@ -12,16 +12,16 @@ namespace {
 
 using std::numbers::pi;
 
-/// `a` rests on, or lies against, `b`; sliding `a` along `way` parts them.
-void touch(Model& model, const std::string& a, const std::string& b, const Point& way) {
-  model.truth.contacts.push_back({a, b, ContactClass::kissing, 0, 0, along(way)});
+/// `a` rests on, or lies against, `b`; sliding `a` along `displacement` parts them.
+void touch(Model& model, const std::string& a, const std::string& b, const Point& displacement) {
+  model.truth.contacts.push_back({a, b, ContactClass::kissing, 0, 0, along(displacement)});
 }
 
 /// Removes the parts from the last that was added to the second one, each along its way.
-void take_off(Model& model, const std::vector<Point>& ways) {
+void take_off(Model& model, const std::vector<Point>& displacements) {
   model.truth.base = model.parts.front().name;
   for (std::size_t k = model.parts.size(); k-- > 1;)
-    model.truth.steps.push_back(slide(model.parts[k].name, ways[k], true));
+    model.truth.steps.push_back(slide(model.parts[k].name, displacements[k], true));
 }
 
 struct StackParams {
@@ -45,16 +45,16 @@ Model stack(const StackParams& p) {
   Model model;
   model.clearance = 0.9 * p.height;
   double x = 0;
-  std::vector<Point> ways;
+  std::vector<Point> displacements;
   for (int k = 0; k < p.blocks; ++k) {
     const std::string name =
         add_part(model, "block" + std::to_string(k + 1),
                  Cells().add(Point(x, 0, k * p.height), Point(x + p.width, p.width, (k + 1) * p.height)).mesh());
-    ways.emplace_back(0, 0, 1.2 * p.height);
-    if (k > 0) touch(model, name, model.parts[static_cast<std::size_t>(k) - 1].name, ways.back());
+    displacements.emplace_back(0, 0, 1.2 * p.height);
+    if (k > 0) touch(model, name, model.parts[static_cast<std::size_t>(k) - 1].name, displacements.back());
     x += p.shift * p.width / 2 / std::max(1, p.blocks - 1 - k);
   }
-  take_off(model, ways);
+  take_off(model, displacements);
   return model;
 }
 
@@ -72,18 +72,18 @@ Model loose_table(const TableParams& p) {
   Model model;
   model.clearance = 0.9 * (p.size - 2 * p.leg);
   const double far = p.size - p.leg;
-  std::vector<Point> ways{Point::Zero()};
+  std::vector<Point> displacements{Point::Zero()};
   for (int k = 0; k < 4; ++k) {
     const Point at(k % 2 == 0 ? 0 : far, k < 2 ? 0 : far, 0);
     add_part(model, "leg" + std::to_string(k + 1), Cells().add(at, at + Point(p.leg, p.leg, p.height)).mesh());
-    if (k > 0) ways.emplace_back(0, 0, 1.2 * p.height);
+    if (k > 0) displacements.emplace_back(0, 0, 1.2 * p.height);
   }
   const Point out(0, 0, 1.2 * p.top);
   const std::string top =
       add_part(model, "top", Cells().add(Point(0, 0, p.height), Point(p.size, p.size, p.height + p.top)).mesh());
   for (int k = 0; k < 4; ++k) touch(model, top, "leg" + std::to_string(k + 1), out);
-  ways.push_back(out);
-  take_off(model, ways);
+  displacements.push_back(out);
+  take_off(model, displacements);
   return model;
 }
 
@@ -147,18 +147,18 @@ Model arch(const ArchParams& p) {
   const double inner = p.radius - p.thickness / 2, outer = p.radius + p.thickness / 2;
   const auto at = [](double angle, double y, double r) { return Point(r * std::cos(angle), y, r * std::sin(angle)); };
   add_part(model, "ground", Cells().add(Point(-1.2 * outer, 0, -p.thickness), Point(1.2 * outer, p.depth, 0)).mesh());
-  std::vector<Point> ways{Point::Zero()};
+  std::vector<Point> displacements{Point::Zero()};
   const double step = pi / p.voussoirs;
   model.clearance = 0.9 * inner * std::sin(step);  // of the second voussoir above the ground
   for (int k = 0; k < p.voussoirs; ++k) {
     const std::string name = add_part(model, "voussoir" + std::to_string(k + 1),
                                       voussoir(k * step, (k + 1) * step, p.depth, 0, inner, outer, at));
     // Sideways: the faces between the blocks, and the ground, lie along y.
-    ways.emplace_back(0, -1.2 * p.depth, 0);
-    if (k > 0) touch(model, name, model.parts[static_cast<std::size_t>(k)].name, ways.back());
-    if (k == 0 || k == p.voussoirs - 1) touch(model, name, "ground", ways.back());
+    displacements.emplace_back(0, -1.2 * p.depth, 0);
+    if (k > 0) touch(model, name, model.parts[static_cast<std::size_t>(k)].name, displacements.back());
+    if (k == 0 || k == p.voussoirs - 1) touch(model, name, "ground", displacements.back());
   }
-  take_off(model, ways);
+  take_off(model, displacements);
   return model;
 }
 
@@ -185,7 +185,7 @@ Model dome(const DomeParams& p) {
   };
   const double far = 1.2 * outer, rise = pi / 2 / (p.rings + 0.5), turn = 2 * pi / p.segments;
   add_part(model, "ground", Cells().add(Point(-far, -far, -p.thickness), Point(far, far, 0)).mesh());
-  std::vector<Point> ways{Point::Zero()};
+  std::vector<Point> displacements{Point::Zero()};
   // The gap across a block: of its height, or of its width at the cap.
   model.clearance =
       0.9 * inner * std::cos(turn / 2) * std::min(std::sin(rise), 2 * std::cos(p.rings * rise) * std::sin(turn / 2));
@@ -195,12 +195,12 @@ Model dome(const DomeParams& p) {
       const double from = ring * rise, left = k * turn;
       const std::string name =
           add_part(model, block(ring, k), voussoir(from, from + rise, left + turn, left, inner, outer, at));
-      ways.push_back(far * at(from + rise / 2, left + turn / 2, 1));
-      if (ring == 0) touch(model, name, "ground", ways.back());
-      if (k > 0) touch(model, name, block(ring, k - 1), ways.back());
-      if (k == p.segments - 1) touch(model, name, block(ring, 0), ways.back());
+      displacements.push_back(far * at(from + rise / 2, left + turn / 2, 1));
+      if (ring == 0) touch(model, name, "ground", displacements.back());
+      if (k > 0) touch(model, name, block(ring, k - 1), displacements.back());
+      if (k == p.segments - 1) touch(model, name, block(ring, 0), displacements.back());
       for (int side = ring == 0 ? 2 : -1; side < 2; ++side)  // below, and across the corners
-        touch(model, name, block(ring - 1, (k + side + p.segments) % p.segments), ways.back());
+        touch(model, name, block(ring - 1, (k + side + p.segments) % p.segments), displacements.back());
     }
   Loop low, high;
   for (int k = 0; k < p.segments; ++k) {
@@ -208,9 +208,9 @@ Model dome(const DomeParams& p) {
     high.push_back(at(p.rings * rise, k * turn, outer));
   }
   const std::string cap = add_part(model, "cap", Loft().to(low).to(high).capped());
-  ways.emplace_back(0, 0, far);
-  for (int k = 0; k < p.segments; ++k) touch(model, cap, block(p.rings - 1, k), ways.back());
-  take_off(model, ways);
+  displacements.emplace_back(0, 0, far);
+  for (int k = 0; k < p.segments; ++k) touch(model, cap, block(p.rings - 1, k), displacements.back());
+  take_off(model, displacements);
   return model;
 }
 

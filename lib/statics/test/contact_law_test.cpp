@@ -19,7 +19,7 @@ TEST(ContactLaw, ResistanceIsMinusTheDerivativeOfTheForce) {
   std::normal_distribution<double> normal;
   const auto vector = [&] { return Vec3(normal(random), normal(random), normal(random)); };
   for (int trial = 0; trial < 300; ++trial) {
-    const Vec3 n = vector().normalized(), moved = vector(), way = vector();
+    const Vec3 n = vector().normalized(), moved = vector(), change = vector();
     const double friction = std::abs(normal(random));
     const auto check = [&](auto law) {
       Mat3 resistance;
@@ -27,8 +27,8 @@ TEST(ContactLaw, ResistanceIsMinusTheDerivativeOfTheForce) {
       EXPECT_EQ(force, law(moved, n, friction, nullptr));
       const double h = 1e-6;
       const Vec3 slope =
-          (law(moved + h * way, n, friction, nullptr) - law(moved - h * way, n, friction, nullptr)) / (2 * h);
-      EXPECT_LT((slope + resistance * way).norm(), 1e-4) << trial;
+          (law(moved + h * change, n, friction, nullptr) - law(moved - h * change, n, friction, nullptr)) / (2 * h);
+      EXPECT_LT((slope + resistance * change).norm(), 1e-4) << trial;
     };
     check(associated_force);
     check(limited_force);

@@ -33,9 +33,9 @@ Assembly measured(const Mesh& a, const Mesh& b, bool with_place = true) {
   return assembly;
 }
 
-MotionCheck check(const Assembly& assembly, const std::vector<Pose>& way) {
+MotionCheck check(const Assembly& assembly, const std::vector<Pose>& motion) {
   Path path;
-  for (const Pose& p : way) path.push_back({p});
+  for (const Pose& p : motion) path.push_back({p});
   return Verifier(assembly, {kTolerance}).check_motion({0}, {{1, Pose{}}}, path);
 }
 
@@ -109,7 +109,7 @@ struct Blocks {
 };
 
 /// Greatest sampled depth along a straight path, of points outside the region grown by `more`.
-double deepest_outside(const Blocks& blocks, const Vec3& way, Aabb region, double more) {
+double deepest_outside(const Blocks& blocks, const Vec3& motion, Aabb region, double more) {
   region.inflate(more);
   double worst = 0;
   constexpr int kTimes = 80, kGrid = 12;
@@ -124,7 +124,7 @@ double deepest_outside(const Blocks& blocks, const Vec3& way, Aabb region, doubl
             p[v] = of.lo[v] + (of.hi[v] - of.lo[v]) * k / kGrid;
             if (region.contains(p)) continue;
             for (int t = 0; t <= kTimes; ++t) {
-              const Vec3 x = p + (forward ? 1.0 : -1.0) * t / kTimes * way;
+              const Vec3 x = p + (forward ? 1.0 : -1.0) * t / kTimes * motion;
               if (region.contains(x)) continue;
               for (const Aabb& in : forward ? blocks.b : blocks.a) worst = std::max(worst, depth_in(in, x));
             }
@@ -145,16 +145,16 @@ TEST(OverlapRegion, AgreesWithSamplesOnRandomBlocks) {
     const double beyond = std::max(blocks.b[0].hi.x(), length) + gap;
     blocks.b.push_back({Vec3(beyond, 1 - past, -0.2), Vec3(beyond + 0.5, 2, 1.2)});
     if (rng.below(2) == 0) blocks.b.push_back({Vec3(-3, -2, -0.2), Vec3(beyond + 4, -0.3, 1.2)});
-    const Vec3 way(beyond + 1 + length, 0, 0);
+    const Vec3 displacement(beyond + 1 + length, 0, 0);
     const Assembly assembly = measured(shapes::boxes(blocks.a), shapes::boxes(blocks.b));
     const auto region = Verifier(assembly, {kTolerance}).overlap_region(0, 1);
     if (!region) continue;  // it is not in the other far enough along the way
-    const MotionCheck seen = check(assembly, {Pose{}, shift(way)});
+    const MotionCheck seen = check(assembly, {Pose{}, shift(displacement)});
     const bool valid = seen.valid;
-    if (deepest_outside(blocks, way, *region, 0.02) > 1.3 * kTolerance) {
+    if (deepest_outside(blocks, displacement, *region, 0.02) > 1.3 * kTolerance) {
       EXPECT_FALSE(valid) << "trial " << trial;
       ++refused;
-    } else if (deepest_outside(blocks, way, *region, -0.05) < 0.4 * kTolerance) {
+    } else if (deepest_outside(blocks, displacement, *region, -0.05) < 0.4 * kTolerance) {
       EXPECT_TRUE(valid) << "trial " << trial << ": " << seen.violation.value_or(Violation{}).depth << " deep at "
                          << seen.violation.value_or(Violation{}).point.transpose()
                          << (seen.violation.value_or(Violation{}).uncertain ? ", uncertain" : "");

@@ -131,9 +131,9 @@ bool DiameterClearance::intersect(const FacetPlane& plane, const Aabb& box, cons
     side = steep;
     for (int k = 0; k < 8; ++k) {
       const Vec3 c = corner(box, k);
-      const double way = (plane.offset - plane.normal.dot(c)) / steep;
-      if (!(way >= least && way <= most)) return false;
-      points.push_back(plane.flat(c + way * d));
+      const double distance = (plane.offset - plane.normal.dot(c)) / steep;
+      if (!(distance >= least && distance <= most)) return false;
+      points.push_back(plane.flat(c + distance * d));
     }
   }
   return true;
@@ -191,7 +191,7 @@ bool DiameterClearance::all_blocked(const Aabb& box, const Lines& lines, const s
   // the middle and the outer lines meet, forward and backward.
   std::vector<std::uint32_t> met, planes;
   struct Hit {
-    double way;
+    double along;
     std::uint32_t plane;
   };
   const Vec3 sight[3] = {lines.at(lines.from), d, lines.at(lines.to)};
@@ -211,15 +211,15 @@ bool DiameterClearance::all_blocked(const Aabb& box, const Lines& lines, const s
     for (int k = 0; k < 3; ++k) {
       const double steep = p.normal.dot(sight[k]);
       if (!(std::abs(off) <= radius_ * std::abs(steep)) || std::abs(steep) < kParallel) continue;
-      const double way = off / steep;
-      Hit& hit = first[way < 0 ? 1 : 0][k];
-      if (k != 1 && !(std::abs(way) < hit.way)) continue;
-      if (!facet.within(p.flat(center + way * sight[k]), near_)) continue;
-      if (std::abs(way) < hit.way) hit = {std::abs(way), facet.plane};
+      const double along = off / steep;
+      Hit& hit = first[along < 0 ? 1 : 0][k];
+      if (k != 1 && !(std::abs(along) < hit.along)) continue;
+      if (!facet.within(p.flat(center + along * sight[k]), near_)) continue;
+      if (std::abs(along) < hit.along) hit = {std::abs(along), facet.plane};
       if (k == 1 && std::find(planes.begin(), planes.end(), facet.plane) == planes.end()) planes.push_back(facet.plane);
     }
   }
-  for (const auto& hits : first) nearest = std::min(nearest, hits[1].way);
+  for (const auto& hits : first) nearest = std::min(nearest, hits[1].along);
   work_ += around.size();
   if (planes.empty()) return false;
   for (const std::uint32_t p : planes)
@@ -230,7 +230,7 @@ bool DiameterClearance::all_blocked(const Aabb& box, const Lines& lines, const s
   for (const int back : {0, 1}) {
     std::vector<std::uint32_t> corner_of;
     for (const Hit& hit : first[back])
-      if (hit.way < radius_ && std::find(corner_of.begin(), corner_of.end(), hit.plane) == corner_of.end())
+      if (hit.along < radius_ && std::find(corner_of.begin(), corner_of.end(), hit.plane) == corner_of.end())
         corner_of.push_back(hit.plane);
     if (corner_of.size() > 1 && blocks(corner_of, back ? -1 : 1, box, lines)) {
       shown_ += share;

@@ -165,11 +165,11 @@ class Chamber {
     }
   }
 
-  /// Distance from a point along `way` up to which no diameter fits into the planes perpendicular to it; at most
+  /// Distance from a point along `direction` up to which no diameter fits into the planes perpendicular to it; at most
   /// `reach`.
-  double blocked_up_to(const Vec3& from, const Vec3& way, double reach, const Cell& cell) {
+  double blocked_up_to(const Vec3& from, const Vec3& direction, double reach, const Cell& cell) {
     const auto blocked = [&](double far) {
-      return clearance_.free_half_length(from + far * way, way, cell.in_reach) < disc_.radius;
+      return clearance_.free_half_length(from + far * direction, direction, cell.in_reach) < disc_.radius;
     };
     if (blocked(reach)) return reach;
     double yes = 0, no = reach;

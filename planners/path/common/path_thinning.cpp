@@ -25,11 +25,11 @@ Path thin(const Path& path, const std::vector<Ball>& bodies, double tolerance) {
   const std::size_t n = path.size();
   if (n <= 2) return path;
   // Parameter of each instant: length covered so far, by the body that moves most in each step.
-  std::vector<double> way(n, 0.0);
+  std::vector<double> lengths(n, 0.0);
   for (std::size_t k = 1; k < n; ++k) {
     double step = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) step = std::max(step, apart(path[k - 1][i], path[k][i], bodies[i]));
-    way[k] = way[k - 1] + step;
+    lengths[k] = lengths[k - 1] + step;
   }
   std::vector<bool> keep(n, false);
   keep.front() = keep.back() = true;
@@ -38,11 +38,11 @@ Path thin(const Path& path, const std::vector<Ball>& bodies, double tolerance) {
     const auto [a, b] = pending.back();
     pending.pop_back();
     if (b - a < 2) continue;
-    const double length = way[b] - way[a];
+    const double length = lengths[b] - lengths[a];
     double worst = -1;
     std::size_t at = a;
     for (std::size_t k = a + 1; k < b; ++k) {
-      const double u = length > 0 ? (way[k] - way[a]) / length : 0;
+      const double u = length > 0 ? (lengths[k] - lengths[a]) / length : 0;
       double deviation = 0;
       for (std::size_t i = 0; i < bodies.size(); ++i)
         deviation = std::max(deviation, apart(screw_interpolate(path[a][i], path[b][i], u), path[k][i], bodies[i]));

@@ -177,7 +177,7 @@ class Rewriting {
     const double known = whole ? order::cost_of(segment, task, first) : before + segment.most_preference();
     Effort own{effort_.left / 2, effort_.stop};
     const std::uint64_t given = own.left;
-    order::WayToTarget found = order::way_to(segment, all, segment.unit_of(target), known, own);
+    order::TargetOrder found = order::order_to(segment, all, segment.unit_of(target), known, own);
     effort_.left -= given - own.left;
     spent_ += given - own.left;
     worth_it_ = !found.best.variants.empty();

@@ -101,8 +101,8 @@ class AcmeStepperWorld final : public dismantle::World {
         const Vector3d local = to_fixed * v;
         const double depth = -tree.signed_distance(local) - allowed;
         if (depth <= 0) continue;
-        const Vector3d way_out = tree.closest(local).point - local;
-        const Vector3d normal = way_out.norm() > 0 ? Vector3d(way_out.normalized()) : Vector3d::UnitZ();
+        const Vector3d outwards = tree.closest(local).point - local;
+        const Vector3d normal = outwards.norm() > 0 ? Vector3d(outwards.normalized()) : Vector3d::UnitZ();
         out.push_back({part, fixed.part, fixed.pose * local, fixed.pose.q * normal, depth});
       }
     }

@@ -65,11 +65,11 @@ class Transfer {
     } else {
       result.fail(dismantle::Outcome::timeout, "the two trees did not meet");
       while (!stopped()) {
-        const std::vector<Pose> way = shortened(connect());
-        if (way.empty()) break;
-        const auto check = query_.checker.check(path_of(way));
+        const std::vector<Pose> displacements = shortened(connect());
+        if (displacements.empty()) break;
+        const auto check = query_.checker.check(path_of(displacements));
         if (check.accepted()) {
-          result.solve(*check.verified, static_cast<unsigned>(way.size() - 1));
+          result.solve(*check.verified, static_cast<unsigned>(displacements.size() - 1));
           break;
         }
         ++result.stats.refused;  // other trees may find another path
@@ -158,28 +158,29 @@ class Transfer {
   }
 
   static std::vector<Pose> branch(const Tree& tree) {
-    std::vector<Pose> way;
+    std::vector<Pose> displacements;
     for (std::size_t i = tree.size() - 1;; i = tree[i].parent) {
-      way.push_back(tree[i].displacement);
-      if (tree[i].parent == i) return way;
+      displacements.push_back(tree[i].displacement);
+      if (tree[i].parent == i) return displacements;
     }
   }
   static std::vector<Pose> joined(const Tree& from_start, const Tree& from_goal) {
-    std::vector<Pose> way = branch(from_start);
-    std::reverse(way.begin(), way.end());
+    std::vector<Pose> displacements = branch(from_start);
+    std::reverse(displacements.begin(), displacements.end());
     const std::vector<Pose> rest = branch(from_goal);
-    way.insert(way.end(), rest.begin() + 1, rest.end());  // both branches contain the displacement where they meet
-    return way;
+    displacements.insert(displacements.end(), rest.begin() + 1,
+                         rest.end());  // both branches contain the displacement where they meet
+    return displacements;
   }
 
   /// Replaces detours by direct motions.
-  std::vector<Pose> shortened(const std::vector<Pose>& way) {
+  std::vector<Pose> shortened(const std::vector<Pose>& displacements) {
     std::vector<Pose> out;
-    for (std::size_t i = 0; i < way.size();) {
-      out.push_back(way[i]);
+    for (std::size_t i = 0; i < displacements.size();) {
+      out.push_back(displacements[i]);
       std::size_t next = i + 1;
-      for (std::size_t k = way.size(); k-- > i + 2;)
-        if (free_between(way[i], way[k])) {
+      for (std::size_t k = displacements.size(); k-- > i + 2;)
+        if (free_between(displacements[i], displacements[k])) {
           next = k;
           break;
         }
@@ -200,9 +201,9 @@ class Transfer {
     return {p - q * center_, q};
   }
 
-  dismantle::Path path_of(const std::vector<Pose>& way) const {
+  dismantle::Path path_of(const std::vector<Pose>& displacements) const {
     dismantle::Path path;
-    for (const Pose& displacement : way) {
+    for (const Pose& displacement : displacements) {
       path.emplace_back();
       for (const auto& body : start_.bodies) path.back().push_back(displacement * body.pose);
     }

@@ -66,9 +66,9 @@ TEST(ContactCache, AWarmSceneListsWhatAFreshOneListsToTheLastBit) {
     std::size_t listed = 0;
     for (int step = 0; step < 150; ++step) {
       // Back and forth near the start, by steps that are small, long, or zero in some direction.
-      const double way = step % 10 == 0 ? 0.2 : step % 3 == 0 ? 0.02 : 0.002;
-      for (int k = 0; k < 3; ++k) poses[0].t[k] = 0.8 * poses[0].t[k] + way * rng.uniform(-1, 1);
-      const Vector3d turn = way * Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
+      const double distance = step % 10 == 0 ? 0.2 : step % 3 == 0 ? 0.02 : 0.002;
+      for (int k = 0; k < 3; ++k) poses[0].t[k] = 0.8 * poses[0].t[k] + distance * rng.uniform(-1, 1);
+      const Vector3d turn = distance * Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
       poses[0].q = (rotation_from_vector(turn) * poses[0].q).normalized();
       warm.update(poses, remembered);
       ContactScene fresh = blank;

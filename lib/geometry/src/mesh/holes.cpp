@@ -79,23 +79,23 @@ std::vector<std::vector<std::uint32_t>> hole_loops(const Mesh& mesh) {
   }
   std::vector<std::vector<std::uint32_t>> loops;
   while (!next.empty()) {
-    std::vector<std::uint32_t> way{next.begin()->first};
-    while (!way.empty()) {
-      const auto found = next.find(way.back());
+    std::vector<std::uint32_t> chain{next.begin()->first};
+    while (!chain.empty()) {
+      const auto found = next.find(chain.back());
       if (found == next.end()) {  // dead end: inconsistent surface
-        way.pop_back();
+        chain.pop_back();
         continue;
       }
       const std::uint32_t to = found->second.back();
       found->second.pop_back();
       if (found->second.empty()) next.erase(found);
-      const auto seen = std::find(way.begin(), way.end(), to);
-      if (seen == way.end()) {
-        way.push_back(to);
+      const auto seen = std::find(chain.begin(), chain.end(), to);
+      if (seen == chain.end()) {
+        chain.push_back(to);
         continue;
       }
-      loops.emplace_back(seen, way.end());
-      way.erase(seen + 1, way.end());
+      loops.emplace_back(seen, chain.end());
+      chain.erase(seen + 1, chain.end());
     }
   }
   return loops;

@@ -91,10 +91,10 @@ bool Sweep::apart(const Corners& t) const {
   }
   if (!turning_) return false;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 e = hull_[3 + (i + 1) % 3] - hull_[3 + i], way = hull_[3 + i] - hull_[i];
-    if (apart_along(e.cross(way), t)) return true;
+    const Vec3 e = hull_[3 + (i + 1) % 3] - hull_[3 + i], side_edge = hull_[3 + i] - hull_[i];
+    if (apart_along(e.cross(side_edge), t)) return true;
     for (const auto& side : sides)
-      if (apart_along(side.cross(e), t) || apart_along(side.cross(way), t)) return true;
+      if (apart_along(side.cross(e), t) || apart_along(side.cross(side_edge), t)) return true;
   }
   return false;
 }

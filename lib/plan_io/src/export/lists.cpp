@@ -150,11 +150,11 @@ std::string steps_csv(const Plan& plan, const InputFrame& frame, const GuidedDis
     if (!step.moves.empty()) {
       std::vector<Pose> poses = step.moves.front().poses;
       std::reverse(poses.begin(), poses.end());
-      const MotionSummary summary = summarize_motion(poses, point_on_axis(poses, middle), leg_tolerance(size));
+      const MotionSummary summary = summarize_motion(poses, point_on_axis(poses, middle), stretch_tolerance(size));
       const std::optional<double> led = guided.empty() ? std::nullopt : guided.at(k);
       motion = travel_words(summary, led, {unit, frame.up, size, false}, frame.lies(step.up));
-      if (!summary.legs.empty()) {
-        const Eigen::Vector3d last = summary.legs.back().normalized();
+      if (!summary.stretches.empty()) {
+        const Eigen::Vector3d last = summary.stretches.back().normalized();
         direction = fmt::format("{:.6f},{:.6f},{:.6f}", last.x() + 0.0, last.y() + 0.0, last.z() + 0.0);
       }
       travel = figure_text(unit.factor * stated_distance(summary, led, size));

@@ -159,7 +159,7 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame, const Guid
       std::string motion = "-";
       if (!step.moves.empty()) {
         const std::vector<Pose>& poses = step.moves.front().poses;
-        const MotionSummary summary = summarize_motion(poses, point_on_axis(poses, middle), leg_tolerance(size));
+        const MotionSummary summary = summarize_motion(poses, point_on_axis(poses, middle), stretch_tolerance(size));
         motion = travel_words(summary, guided.empty() ? std::nullopt : guided.at(k), {unit, frame.up, size, true},
                               frame.lies(step.up));
       }

@@ -36,10 +36,10 @@ Eigen::Quaterniond InputFrame::to_y_up() const {
   return Eigen::Quaterniond(half, -half, 0, 0) * upright(up);
 }
 
-Eigen::Quaterniond InputFrame::lies(const std::optional<Eigen::Vector3d>& way_up) const {
-  if (!way_up) return Eigen::Quaterniond::Identity();
-  if (way_up->dot(up) < -1 + 1e-9) return upright(up).conjugate() * kOverItsFront * upright(up);
-  return Eigen::Quaterniond::FromTwoVectors(*way_up, up);
+Eigen::Quaterniond InputFrame::lies(const std::optional<Eigen::Vector3d>& upwards) const {
+  if (!upwards) return Eigen::Quaterniond::Identity();
+  if (upwards->dot(up) < -1 + 1e-9) return upright(up).conjugate() * kOverItsFront * upright(up);
+  return Eigen::Quaterniond::FromTwoVectors(*upwards, up);
 }
 
 Eigen::Quaterniond upright(const Eigen::Vector3d& up) {

@@ -46,10 +46,10 @@ std::string turn_words(double turn) {
 /// Is the motion a list of straight slides, each along one of three orthogonal axes, as in a puzzle?
 bool is_of_slides(const MotionSummary& motion) {
   constexpr std::size_t kMostSlides = 40;
-  if (motion.legs.size() > kMostSlides || motion.turn * 180 / std::numbers::pi >= kTurned) return false;
+  if (motion.stretches.size() > kMostSlides || motion.turn * 180 / std::numbers::pi >= kTurned) return false;
   const double across = std::sin(std::acos(kOneAxis));
-  return std::all_of(motion.legs.begin(), motion.legs.end(), [&](const Eigen::Vector3d& a) {
-    return std::all_of(motion.legs.begin(), motion.legs.end(), [&](const Eigen::Vector3d& b) {
+  return std::all_of(motion.stretches.begin(), motion.stretches.end(), [&](const Eigen::Vector3d& a) {
+    return std::all_of(motion.stretches.begin(), motion.stretches.end(), [&](const Eigen::Vector3d& b) {
       const double cosine = std::abs(a.normalized().dot(b.normalized()));
       return cosine > kOneAxis || cosine < across;
     });
@@ -77,7 +77,7 @@ Eigen::Vector3d point_on_axis(const std::vector<Pose>& poses, const Eigen::Vecto
 }
 
 MotionSummary in_unit(MotionSummary motion, double factor) {
-  for (Eigen::Vector3d& leg : motion.legs) leg *= factor;
+  for (Eigen::Vector3d& stretch : motion.stretches) stretch *= factor;
   motion.displacement *= factor;
   motion.length *= factor;
   return motion;
@@ -116,10 +116,10 @@ MotionSummary summarize_motion(const std::vector<Pose>& poses, const Eigen::Vect
   std::vector<Eigen::Vector3d> kept{points.front()};
   simplify(points, 0, points.size() - 1, tolerance, kept);
   for (std::size_t i = 1; i < kept.size(); ++i)
-    if (const Eigen::Vector3d leg = kept[i] - kept[i - 1]; leg.norm() > tolerance || kept.size() > 2)
-      out.legs.push_back(leg);
-  if (out.legs.empty() && out.displacement.norm() > 0 && !(out.turn * 180 / std::numbers::pi > kTurned))
-    out.legs.push_back(out.displacement);  // short, but the whole motion
+    if (const Eigen::Vector3d stretch = kept[i] - kept[i - 1]; stretch.norm() > tolerance || kept.size() > 2)
+      out.stretches.push_back(stretch);
+  if (out.stretches.empty() && out.displacement.norm() > 0 && !(out.turn * 180 / std::numbers::pi > kTurned))
+    out.stretches.push_back(out.displacement);  // short, but the whole motion
   return out;
 }
 
@@ -165,19 +165,19 @@ std::string motion_words(const MotionSummary& motion, const std::string& unit, c
                          const Eigen::Quaterniond& lies) {
   const std::string of_unit = unit.empty() ? "" : " " + unit;
   std::string out;
-  if (motion.legs.size() > 4 && !is_of_slides(motion)) {
+  if (motion.stretches.size() > 4 && !is_of_slides(motion)) {
     out = fmt::format("along its path, {}{} in all", figure_text(motion.length), of_unit);
     if (motion.displacement.norm() > 1e-3 * motion.length)
       out += fmt::format(", to a place {}{} {}", figure_text(motion.displacement.norm()), of_unit,
                          direction_words(motion.displacement, drawn_up, lies));
   } else {
-    for (const Eigen::Vector3d& leg : motion.legs)
-      out += fmt::format("{}{}{} {}", out.empty() ? "" : ", then ", figure_text(leg.norm()), of_unit,
-                         direction_words(leg, drawn_up, lies));
+    for (const Eigen::Vector3d& stretch : motion.stretches)
+      out += fmt::format("{}{}{} {}", out.empty() ? "" : ", then ", figure_text(stretch.norm()), of_unit,
+                         direction_words(stretch, drawn_up, lies));
   }
   if (motion.turn * 180 / std::numbers::pi < kTurned) return out.empty() ? "in its place" : out;
-  const bool straight = motion.legs.size() == 1;
-  const double along = straight ? motion.axis.dot(motion.legs.front().normalized()) : 0;
+  const bool straight = motion.stretches.size() == 1;
+  const double along = straight ? motion.axis.dot(motion.stretches.front().normalized()) : 0;
   const std::string turn = turn_words(motion.turn);
   if (std::abs(along) > kOneAxis)
     return out + fmt::format(", turning {} by {}", along > 0 ? "clockwise" : "counter-clockwise", turn);

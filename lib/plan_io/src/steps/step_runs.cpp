@@ -79,16 +79,16 @@ class Runs {
   MotionSummary motion(const PlanStep& step) const {
     if (step.moves.empty()) return {};
     const std::vector<Pose>& poses = step.moves.front().poses;
-    return summarize_motion(poses, point_on_axis(poses, middle_), leg_tolerance(size_));
+    return summarize_motion(poses, point_on_axis(poses, middle_), stretch_tolerance(size_));
   }
 
   static bool alike(const MotionSummary& a, const MotionSummary& b) {
-    if (a.legs.size() != b.legs.size()) return false;
+    if (a.stretches.size() != b.stretches.size()) return false;
     const auto along = [](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
       return p.dot(q) >= kSameDirection * p.norm() * q.norm();
     };
-    for (std::size_t k = 0; k < a.legs.size(); ++k)
-      if (!along(a.legs[k], b.legs[k])) return false;
+    for (std::size_t k = 0; k < a.stretches.size(); ++k)
+      if (!along(a.stretches[k], b.stretches[k])) return false;
     const double turn = std::max(a.turn, b.turn);
     return turn < kNoTurn || (std::abs(a.turn - b.turn) <= kSameTurn * turn && along(a.axis, b.axis));
   }

@@ -38,26 +38,26 @@ std::map<std::string, Body> bodies_of(const Assembly& assembly) {
 }
 
 /// Travel of the part that moves furthest, from the begin of the step to each instant.
-std::vector<double> way_of(const PlanStep& step, const std::vector<Body>& bodies) {
-  std::vector<double> way(step.moves.front().poses.size(), 0.0);
-  for (std::size_t k = 1; k < way.size(); ++k) {
+std::vector<double> lengths_of(const PlanStep& step, const std::vector<Body>& bodies) {
+  std::vector<double> lengths(step.moves.front().poses.size(), 0.0);
+  for (std::size_t k = 1; k < lengths.size(); ++k) {
     double furthest = 0;
     for (std::size_t m = 0; m < bodies.size(); ++m) {
       const Pose &a = step.moves[m].poses[k - 1], &b = step.moves[m].poses[k];
       furthest = std::max(furthest, screw_travel(a, b, bodies[m].center, bodies[m].radius));
     }
-    way[k] = way[k - 1] + furthest;
+    lengths[k] = lengths[k - 1] + furthest;
   }
-  return way;
+  return lengths;
 }
 
 /// When a step that begins at `begin` reaches each of its poses. Single precision, in which glTF has times, may not
 /// tell two of them apart; then the second is the next number.
-std::vector<float> pose_times(double begin, double duration, const std::vector<double>& way) {
+std::vector<float> pose_times(double begin, double duration, const std::vector<double>& lengths) {
   std::vector<float> out;
-  const std::size_t last = way.size() - 1;
+  const std::size_t last = lengths.size() - 1;
   for (std::size_t k = 0; k <= last; ++k) {
-    const double share = way[last] > 0 ? way[k] / way[last] : last > 0 ? double(k) / double(last) : 0.0;
+    const double share = lengths[last] > 0 ? lengths[k] / lengths[last] : last > 0 ? double(k) / double(last) : 0.0;
     const auto time = static_cast<float>(begin + duration * share);
     out.push_back(k == 0 ? time : std::max(time, std::nextafter(out.back(), std::numeric_limits<float>::max())));
   }
@@ -105,14 +105,14 @@ Timeline timeline(const std::vector<PlanStep>& steps, const Assembly& assembly, 
         throw InputError(move.part, fmt::format("step {}: moves must have the same number of poses", step.step));
       bodies.push_back(it->second);
     }
-    const std::vector<double> way = way_of(step, bodies);
-    const double duration = std::clamp(pace.per_size * way.back() / size, pace.shortest, pace.longest);
+    const std::vector<double> lengths = lengths_of(step, bodies);
+    const double duration = std::clamp(pace.per_size * lengths.back() / size, pace.shortest, pace.longest);
     if (!out.steps.empty() && ups.at(s) != ups.at(out.steps.back().index)) now += pace.turning - pace.between;
-    std::vector<float> times = pose_times(now, duration, way);
+    std::vector<float> times = pose_times(now, duration, lengths);
     for (std::size_t m = 0; m < bodies.size(); ++m) {
       Track& track = tracks[bodies[m].id];
       track.part = bodies[m].id;
-      for (std::size_t k = 0; k < way.size(); ++k) append(track.keys, times[k], step.moves[m].poses[k]);
+      for (std::size_t k = 0; k < lengths.size(); ++k) append(track.keys, times[k], step.moves[m].poses[k]);
     }
     now = static_cast<double>(times.back()) + pace.between;
     out.steps.push_back({s, step.step, times.front(), times.back(), {}, std::move(times)});

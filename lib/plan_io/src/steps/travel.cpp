@@ -143,22 +143,22 @@ std::optional<double> distance_of(const PlanStep& step, const PlanHistory& histo
   const double size = assembly.input_box.empty() ? 1 : assembly.input_box.size().maxCoeff();
   const Aabb box = assembly.parts[part_of[history.index_of(step.moves.front().part)]].mesh->box();
   const MotionSummary motion =
-      summarize_motion(poses, assembly.normalization.to_input(box.center()), leg_tolerance(size));
+      summarize_motion(poses, assembly.normalization.to_input(box.center()), stretch_tolerance(size));
   if (!is_straight(motion)) return std::nullopt;
   const Pose whole = poses.back() * poses.front().inverse();
   std::vector<bool> moves(history.parts());
   PosedParts moving, fixed;
   for (const PlanMove& move : step.moves) {
     const Pose own = move.poses.back() * move.poses.front().inverse();
-    const double other_way = (own.t - whole.t).norm() + size * angle_between(own.q, whole.q);
-    if (other_way > resting_distance(size)) return std::nullopt;
+    const double otherwise = (own.t - whole.t).norm() + size * angle_between(own.q, whole.q);
+    if (otherwise > resting_distance(size)) return std::nullopt;
     const std::size_t i = history.index_of(move.part);
     moves[i] = true;
     moving.emplace_back(part_of[i], move.poses.front());
   }
   for (const std::size_t i : history.members(history.splits(index).front().from, index))
     if (!moves[i]) fixed.emplace_back(part_of[i], history.pose_of(i, index));
-  return std::min(guided_distance(assembly, moving, fixed, motion.legs.front()), motion.length);
+  return std::min(guided_distance(assembly, moving, fixed, motion.stretches.front()), motion.length);
 }
 
 }  // namespace
@@ -188,7 +188,7 @@ GuidedDistances guided_distances(const Plan& plan, const Assembly& assembly) {
 }
 
 bool is_straight(const MotionSummary& motion) {
-  return motion.legs.size() == 1 && motion.turn * 180 / std::numbers::pi < 1;
+  return motion.stretches.size() == 1 && motion.turn * 180 / std::numbers::pi < 1;
 }
 
 double stated_distance(const MotionSummary& motion, std::optional<double> guided, double size) {
@@ -201,9 +201,9 @@ std::string travel_words(const MotionSummary& motion, std::optional<double> guid
   MotionSummary shown = in_unit(motion, phrase.unit.factor);
   if (guided && is_straight(motion)) {
     if (stated_distance(motion, guided, phrase.size) == 0)
-      return direction_words(motion.legs.front(), phrase.up, lies) +
+      return direction_words(motion.stretches.front(), phrase.up, lies) +
              (phrase.disassembly ? ", free at once" : ", until it seats");
-    shown.legs.front() *= *guided / motion.legs.front().norm();
+    shown.stretches.front() *= *guided / motion.stretches.front().norm();
   }
   return motion_words(shown, phrase.unit.name, phrase.up, lies);
 }

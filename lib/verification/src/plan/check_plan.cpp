@@ -287,8 +287,8 @@ class Checker {
       if (step.transfer >= motion->path.size())
         problem(fmt::format("{}its transfer ends beyond its poses", kWhat));
       else
-        check_way(*motion, others, step,
-                  disassembly_holds && count == plan_.disassembly.size() ? count - 1 - i : count);
+        check_motion_of(*motion, others, step,
+                        disassembly_holds && count == plan_.disassembly.size() ? count - 1 - i : count);
       for (std::size_t k = 0; k < motion->moving.size(); ++k) {
         state_.place[motion->moving[k]] = motion->path.back()[k];
         present[motion->moving[k]] = true;
@@ -303,7 +303,7 @@ class Checker {
   }
 
   /// `there`: index of the disassembly step that this one may reverse; beyond the last if there is none.
-  void check_way(const StepMotion& motion, const Group& others, const PlanStep& step, std::size_t there) {
+  void check_motion_of(const StepMotion& motion, const Group& others, const PlanStep& step, std::size_t there) {
     double bound = 0;
     const bool reverse = there < plan_.disassembly.size() && is_reverse(there, step);
     const bool forced = there < plan_.disassembly.size() && plan_.disassembly[there].forced.has_value();

@@ -113,7 +113,7 @@ class Search {
       result.visited = node + 1;
       if (const auto leaving = expand(node)) {
         result.end = End::found;
-        result.slides = way_to(node, *leaving);
+        result.slides = slides_to(node, *leaving);
         return result;
       }
     }
@@ -238,11 +238,11 @@ class Search {
     return leaving;
   }
 
-  std::vector<Slide> way_to(std::size_t node, const Slide& last) const {
-    std::vector<Slide> way{last};
-    for (; node != 0; node = steps_[node].parent) way.push_back(steps_[node].slide);
-    std::reverse(way.begin(), way.end());
-    return way;
+  std::vector<Slide> slides_to(std::size_t node, const Slide& last) const {
+    std::vector<Slide> slides{last};
+    for (; node != 0; node = steps_[node].parent) slides.push_back(steps_[node].slide);
+    std::reverse(slides.begin(), slides.end());
+    return slides;
   }
 
   const SearchLimits& limits_;

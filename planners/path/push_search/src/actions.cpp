@@ -149,8 +149,9 @@ Freedom freedom_of(const std::vector<Contact>& contacts, const std::vector<Place
       propose(-along);
     }
   for (const Vec3& normal : n) propose(normal);
-  std::stable_sort(freedom.directions.begin(), freedom.directions.end(),
-                   [&](const Vec3& a, const Vec3& b) { return extents.way_out(a) < extents.way_out(b) - 1e-9; });
+  std::stable_sort(freedom.directions.begin(), freedom.directions.end(), [&](const Vec3& a, const Vec3& b) {
+    return extents.exit_distance(a) < extents.exit_distance(b) - 1e-9;
+  });
   if (freedom.directions.size() > most) freedom.directions.resize(most);
   return freedom;
 }

@@ -92,16 +92,16 @@ Eigen::Matrix3d own_axes(const Assembly& assembly, const Scene& scene, double fa
 Extents::Extents(const Assembly& assembly, const Scene& scene, const Eigen::Matrix3d& axes)
     : axes_(axes), moving_(box_along(assembly, scene.moving, axes)), fixed_(box_along(assembly, scene.fixed, axes)) {}
 
-double Extents::longest_way_out() const { return (moving_.hi - moving_.lo).norm() + (fixed_.hi - fixed_.lo).norm(); }
+double Extents::longest_exit() const { return (moving_.hi - moving_.lo).norm() + (fixed_.hi - fixed_.lo).norm(); }
 
-double Extents::way_out(const Vec3& direction) const {
+double Extents::exit_distance(const Vec3& direction) const {
   const Vec3 d = axes_.transpose() * direction;
-  double way = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
-    if (d[k] > 1e-9) way = std::min(way, (fixed_.hi[k] - moving_.lo[k]) / d[k]);
-    if (d[k] < -1e-9) way = std::min(way, (fixed_.lo[k] - moving_.hi[k]) / d[k]);
+    if (d[k] > 1e-9) least = std::min(least, (fixed_.hi[k] - moving_.lo[k]) / d[k]);
+    if (d[k] < -1e-9) least = std::min(least, (fixed_.lo[k] - moving_.hi[k]) / d[k]);
   }
-  return way;
+  return least;
 }
 
 }  // namespace dismantle::push

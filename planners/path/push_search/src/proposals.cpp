@@ -24,7 +24,7 @@ double length_until_out(const Problem& problem, const State& from, const Twist& 
   const double turn = turns ? 2 * std::numbers::pi / screw.angular.norm() : 0;
   const double advance = turns ? std::abs(screw.linear.dot(screw.angular.normalized())) : screw.linear.norm();
   const bool advances = !turns || advance * turn > problem.query.tolerance;
-  const double most = advances ? problem.extents.longest_way_out() / advance : turn;
+  const double most = advances ? problem.extents.longest_exit() / advance : turn;
   const double growth = problem.tactics.glide_growth;
   State there = from;
   const auto next = [&](double length) {

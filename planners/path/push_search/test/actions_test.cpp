@@ -60,7 +60,7 @@ TEST(Extents, TheWayOutIsTheSameHoweverTheAssemblyLies) {
         there(b, kFirstMoves, own_axes(b, kFirstMoves, 0.035));
     for (int k = 0; k < 10; ++k) {
       const Vector3d d = Vector3d(rng.normal(), rng.normal(), rng.normal()).normalized();
-      EXPECT_NEAR(plain.way_out(d), there.way_out(turned.q * d), 1e-6);
+      EXPECT_NEAR(plain.exit_distance(d), there.exit_distance(turned.q * d), 1e-6);
     }
   }
 }

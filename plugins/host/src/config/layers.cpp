@@ -79,7 +79,7 @@ class FileChain {
     const auto again = std::find(chain_.begin(), chain_.end(), identity);
     if (from != nullptr && (again != chain_.end() || chain_.size() >= kConfigLimits.files)) {
       problems_.push_back(from->error(again != chain_.end()
-                                          ? fmt::format("'{}' extends itself{}", shown, way(again))
+                                          ? fmt::format("'{}' extends itself{}", shown, chain_from(again))
                                           : fmt::format("more than {} files extend each other", kConfigLimits.files)));
       return empty();
     }
@@ -127,7 +127,7 @@ class FileChain {
     return base;
   }
 
-  std::string way(std::vector<fs::path>::const_iterator begin) const {
+  std::string chain_from(std::vector<fs::path>::const_iterator begin) const {
     const std::size_t first = static_cast<std::size_t>(begin - chain_.begin());
     if (first + 1 == names_.size()) return "";
     std::string text = ": ";

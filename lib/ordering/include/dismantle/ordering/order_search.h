@@ -101,7 +101,7 @@ struct BestFirst {
 BestFirst best_first(Problem& problem, const Task& task, double known, Effort& effort);
 
 /// The cheapest order to a target, for a problem of any size.
-struct WayToTarget {
+struct TargetOrder {
   Order best;        ///< only if it is cheaper than `known`
   double bound = 0;  ///< no order is cheaper
   double least = 0;  ///< the same, even if Problem::cost() is only estimated beyond Problem::least()
@@ -110,7 +110,7 @@ struct WayToTarget {
 };
 /// First by the costs that each step has at least, with those units only that a cheap order can need; then by all
 /// costs.
-WayToTarget way_to(Problem& problem, const UnitSet& start, std::size_t target, double known, Effort& effort);
+TargetOrder order_to(Problem& problem, const UnitSet& start, std::size_t target, double known, Effort& effort);
 
 /// Beam search, as wide as the effort allows.
 Order beam(Problem& problem, const Task& task, Effort& effort);

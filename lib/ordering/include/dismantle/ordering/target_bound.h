@@ -29,24 +29,24 @@ class TargetBound {
 
  private:
   /// Units that leave in one motion, and what must have left before. Of several variants the cheapest.
-  struct Way {
+  struct Option {
     UnitSet leaving, blocking;
     double least = 0;
     VariantId variant = kNone;
   };
-  void add_ways(std::size_t unit);
+  void add_options(std::size_t unit);
   void find_useful(const UnitSet& start, double known);
   double least_of(const UnitSet& units) const;
-  std::vector<const Way*> supported(const UnitSet& left, const UnitSet& in_any_case) const;
+  std::vector<const Option*> supported(const UnitSet& left, const UnitSet& in_any_case) const;
   void find_necessary(const UnitSet& left);
-  bool needs(const Way& way, const UnitSet& left, UnitSet& units) const;
+  bool needs(const Option& option, const UnitSet& left, UnitSet& units) const;
 
   Problem& problem_;
   std::size_t target_;
   bool target_may_stay_;
   std::vector<std::vector<VariantId>> variants_;  // by unit that leaves, whether first or not
   std::vector<double> cheapest_;                  // by unit, of the variants that hold it
-  std::vector<std::vector<Way>> ways_;            // by unit; empty until it is known to be useful
+  std::vector<std::vector<Option>> options_;      // by unit; empty until it is known to be useful
   UnitSet useful_, nothing_, everything_;
   std::vector<UnitSet> necessary_;  // by unit, with the unit itself; everything: it cannot leave
   std::unordered_map<UnitSet, double, UnitSetHash> known_;

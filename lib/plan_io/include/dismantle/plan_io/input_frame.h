@@ -23,7 +23,7 @@ struct InputFrame {
   /// Turns input axes to those of glTF.
   Eigen::Quaterniond to_y_up() const;
   /// How an assembly lies in a step that states its `up` (unit): turned from how it is drawn. None: not turned.
-  Eigen::Quaterniond lies(const std::optional<Eigen::Vector3d>& way_up) const;
+  Eigen::Quaterniond lies(const std::optional<Eigen::Vector3d>& upwards) const;
 };
 
 /// Turns the direction `up` (unit) to Z by the shortest way; -Z over the front, so that right stays right. In the

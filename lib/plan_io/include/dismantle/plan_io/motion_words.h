@@ -10,10 +10,10 @@
 
 namespace dismantle {
 
-/// A motion as a reader sees it: straight legs and turns.
+/// A motion as a reader sees it: straight stretches and turns.
 struct MotionSummary {
-  /// Displacements of the point along the straight legs of its path, input units. Empty when it stays where it is.
-  std::vector<Eigen::Vector3d> legs;
+  /// Displacements of the point along the straight stretches of its path, input units. Empty when it stays where it is.
+  std::vector<Eigen::Vector3d> stretches;
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< from begin to end, input units
   double length = 0;                                       ///< of the path of the point, input units
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();         ///< unit; of the turn, by the right-hand rule
@@ -21,7 +21,7 @@ struct MotionSummary {
 };
 
 /// The path of `point` (assembled frame), simplified by the rule of Douglas and Peucker (Cartographica 10(2), 1973): no
-/// pose's point is further than `tolerance` (input units, > 0) from the legs.
+/// pose's point is further than `tolerance` (input units, > 0) from the stretches.
 DISMANTLE_API MotionSummary summarize_motion(const std::vector<Pose>& poses, const Eigen::Vector3d& point,
                                              double tolerance);
 
@@ -34,7 +34,7 @@ DISMANTLE_API MotionSummary in_unit(MotionSummary motion, double factor);
 
 /// The tolerance of summarize_motion() for text about an assembly whose largest edge is `size`: readers do not notice a
 /// hundredth.
-inline double leg_tolerance(double size) { return 0.01 * size; }
+inline double stretch_tolerance(double size) { return 0.01 * size; }
 
 /// Three significant digits, without an exponent for what people measure: "1270", "18.3", "0.05".
 DISMANTLE_API std::string figure_text(double x);
@@ -54,8 +54,8 @@ DISMANTLE_API std::string direction_words(const Eigen::Vector3d& direction, cons
 DISMANTLE_API std::string lie_words(const Eigen::Vector3d& up, const Eigen::Vector3d& drawn_up);
 
 /// "40 mm down (-Z), then 3 mm left (-X)", "15 mm down (-Z), turning clockwise by 5 turns": one phrase. All slides
-/// along three orthogonal axes are told, of other motions up to four legs. Clockwise is seen along the motion, or along
-/// the axis that is named. `unit` may be empty.
+/// along three orthogonal axes are told, of other motions up to four stretches. Clockwise is seen along the motion, or
+/// along the axis that is named. `unit` may be empty.
 DISMANTLE_API std::string motion_words(const MotionSummary& motion, const std::string& unit,
                                        const Eigen::Vector3d& drawn_up,
                                        const Eigen::Quaterniond& lies = Eigen::Quaterniond::Identity());

@@ -67,9 +67,7 @@ class ContactScene {
   /// Moves the moving bodies to `poses` and lists all points whose gap is below the margin.
   void update(const std::vector<Pose>& poses, std::vector<ContactPoint>& out);
 
-  std::size_t moving_count() const { return moving_; }
   const Member& member(std::size_t i) const { return members_[i]; }
-  std::size_t member_count() const { return members_.size(); }
   /// Mass centre of moving body i in its assembled frame; and its bounding radius about it.
   Eigen::Vector3d center(std::size_t i) const {
     return members_[i].placed->rest * members_[i].placed->shape->mass.center;

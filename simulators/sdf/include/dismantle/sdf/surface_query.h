@@ -90,8 +90,6 @@ class SurfaceQuery {
                 std::span<const CandidateList*> lists) const;
   static constexpr std::size_t kMostPrefetched = 64;  ///< limit of points per call
 
-  std::size_t triangle_count() const { return corners_.size(); }
-
  private:
   struct Node {
     float lo[3], hi[3];

@@ -75,14 +75,12 @@ class RelativePose {
   bool blocked_by(const InteriorSample& sample) const {
     return sample.clearance <= max_displacement_ && inside(sample);
   }
-  /// Upper bound of the displacement of any point of `a`.
-  double max_displacement() const { return max_displacement_; }
 
  private:
   const SampledPair* pair_;
   Eigen::Matrix3d rotation_;
   Eigen::Vector3d shift_;
-  double max_displacement_;
+  double max_displacement_;  // upper bound, of any point of `a`
 };
 
 }  // namespace dismantle::immobility

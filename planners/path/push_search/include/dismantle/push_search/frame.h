@@ -21,9 +21,9 @@ class Extents {
  public:
   Extents(const Assembly& assembly, const Scene& scene, const Eigen::Matrix3d& axes);
   /// Distance along `direction` (world, unit) after which the boxes are disjoint; infinite for a zero direction.
-  double way_out(const Eigen::Vector3d& direction) const;
+  double exit_distance(const Eigen::Vector3d& direction) const;
   /// Sum of the diagonals of both boxes: a translation of this length separates boxes that overlap.
-  double longest_way_out() const;
+  double longest_exit() const;
 
  private:
   Eigen::Matrix3d axes_;

@@ -35,8 +35,8 @@ struct Problem {
   // Lengths, assembly units.
   /// Parts without vertices, as in tests, have no way out of each other's boxes.
   double glide_step() const {
-    const double way = extents.longest_way_out();
-    return std::isfinite(way) ? std::max(query.tolerance, tactics.glide_step * way) : 20 * query.tolerance;
+    const double longest = extents.longest_exit();
+    return std::isfinite(longest) ? std::max(query.tolerance, tactics.glide_step * longest) : 20 * query.tolerance;
   }
   double thinning() const { return tactics.thinning * query.tolerance; }
   /// Moves the parts away from their contacts; see SearchParameters::clearance.

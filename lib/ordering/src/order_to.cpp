@@ -38,7 +38,7 @@ class Search {
     result_.best.cost = known;
   }
 
-  WayToTarget run() {
+  TargetOrder run() {
     Bounds all = search(false);
     // As a rule it costs more if everything else has to leave.
     const TargetBound none(alone_, UnitSet(problem_.units()), task_.target, 0, false);
@@ -144,12 +144,12 @@ class Search {
   Effort& effort_;
   Task task_;
   std::uint64_t given_ = 0;
-  WayToTarget result_;
+  TargetOrder result_;
 };
 
 }  // namespace
 
-WayToTarget way_to(Problem& problem, const UnitSet& start, std::size_t target, double known, Effort& effort) {
+TargetOrder order_to(Problem& problem, const UnitSet& start, std::size_t target, double known, Effort& effort) {
   return Search(problem, start, target, known, effort).run();
 }
 
