@@ -78,7 +78,7 @@ Access room_for(const Use& use, const Fastener& fastener, std::span<const Arcs* 
     out.handle = direction_at(use, fastener, *start + use.swing / 2);
     return out;
   }
-  out.in_the_way = fewest(blocked, use.swing);
+  out.obstacles = fewest(blocked, use.swing);
   return out;
 }
 
@@ -91,7 +91,7 @@ Access find_access(const Tool& tool, const Fastener& fastener, std::span<const O
     for (const Arcs& a : arcs) blocked.push_back(&a);
     Access access = room_for(use, fastener, blocked);
     if (access.reaches()) return access;
-    if (best.use == nullptr || access.in_the_way.size() < best.in_the_way.size()) best = std::move(access);
+    if (best.use == nullptr || access.obstacles.size() < best.obstacles.size()) best = std::move(access);
   }
   return best;
 }

@@ -35,7 +35,7 @@ TEST(FindAccess, OnlyALongKeyReachesTheGroundOfAWell) {
   everywhere(well(4, 80), m3(), [](const Scene& scene) {
     const Access key = scene.find(tool_named("hex_key_2.5"));
     EXPECT_FALSE(key.reaches());
-    EXPECT_EQ(key.in_the_way, std::vector<std::size_t>{1});
+    EXPECT_EQ(key.obstacles, std::vector<std::size_t>{1});
     EXPECT_TRUE(scene.find(tool_named("hex_key_long_2.5")).reaches());
   });
 }
@@ -48,7 +48,7 @@ TEST(FindAccess, OnlyAShortKeyReachesUnderARoof) {
     ASSERT_TRUE(key.reaches());
     EXPECT_EQ(key.use->name, "short arm in the screw");
     EXPECT_FALSE(scene.find(tool_named("hex_driver_2.5"), false).reaches());
-    EXPECT_EQ(scene.find(tool_named("hex_driver_2.5"), false).in_the_way, std::vector<std::size_t>{1});
+    EXPECT_EQ(scene.find(tool_named("hex_driver_2.5"), false).obstacles, std::vector<std::size_t>{1});
   });
 }
 
@@ -59,7 +59,7 @@ TEST(FindAccess, TheHandNeedsRoomToo) {
     EXPECT_TRUE(scene.find(tool_named("hex_key_2.5"), false).reaches());
     const Access held = scene.find(tool_named("hex_key_2.5"), true);
     EXPECT_FALSE(held.reaches());
-    EXPECT_EQ(held.in_the_way, std::vector<std::size_t>{0});
+    EXPECT_EQ(held.obstacles, std::vector<std::size_t>{0});
   });
 }
 
@@ -92,7 +92,7 @@ TEST(FindAccess, AWrenchThatSwingsThirtyDegreesAndNotSixty) {
       EXPECT_EQ(access.reaches() ? access.use->name : "", answer) << degrees;
       // One of the two walls has to go.
       if (!access.reaches()) {
-        EXPECT_EQ(access.in_the_way.size(), 1u);
+        EXPECT_EQ(access.obstacles.size(), 1u);
       }
     });
 }
@@ -129,7 +129,7 @@ TEST(FindAccess, ARingWithoutRoomForPliers) {
   everywhere({shapes::tube(0, 8, -30, 10, 64), shapes::tube(14, 60, -30, 60, 64)}, ring, [&](const Scene& scene) {
     const Access access = scene.find(pliers);
     EXPECT_FALSE(access.reaches());
-    EXPECT_EQ(access.in_the_way, std::vector<std::size_t>{1});
+    EXPECT_EQ(access.obstacles, std::vector<std::size_t>{1});
   });
 }
 

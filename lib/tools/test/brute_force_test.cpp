@@ -129,20 +129,20 @@ TEST(FindAccess, AgreesWithSampledPlacements) {
       continue;
     }
     ++blocked;
-    ASSERT_FALSE(access.in_the_way.empty());
+    ASSERT_FALSE(access.obstacles.empty());
     for (int k = 0; k < testing_support::trials(60, 400); ++k)
       EXPECT_FALSE(brute.free_swing(rng.uniform(0, 2 * pi), use.swing, 24)) << "round " << round;
     // Without the parts that are in the way it has room, and they are the fewest.
     std::vector<Obstacle> left;
     std::vector<Mesh> kept;
     for (std::size_t i = 0; i < parts.size(); ++i)
-      if (std::find(access.in_the_way.begin(), access.in_the_way.end(), i) == access.in_the_way.end())
+      if (std::find(access.obstacles.begin(), access.obstacles.end(), i) == access.obstacles.end())
         left.push_back(scene.obstacles()[i]), kept.push_back(parts[i]);
     const Access room = find_access(tool, fastener, left);
     ASSERT_TRUE(room.reaches()) << "round " << round;
     EXPECT_TRUE(Brute(kept, use, fastener).free_swing(room.start, use.swing, 12)) << "round " << round;
-    narrow += access.in_the_way.size() > 1;
-    for (std::size_t without = 0; access.in_the_way.size() > 1 && without < parts.size(); ++without) {
+    narrow += access.obstacles.size() > 1;
+    for (std::size_t without = 0; access.obstacles.size() > 1 && without < parts.size(); ++without) {
       std::vector<Obstacle> others = scene.obstacles();
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(without));
       EXPECT_FALSE(find_access(tool, fastener, others).reaches()) << "round " << round << " part " << without;
@@ -261,7 +261,7 @@ TEST(FindAccess, FindsTheLastGap) {
     use.swing += 2 * spare + 1e-3;
     const Access more = Scene(posts, fastener).find(tool);
     EXPECT_FALSE(more.reaches()) << "round " << round;
-    EXPECT_EQ(more.in_the_way.size(), 1u);
+    EXPECT_EQ(more.obstacles.size(), 1u);
   }
 }
 

@@ -31,7 +31,7 @@ bool may_turn(const Blocked& b, PartId part) {
 
 /// The smallest turn, degrees, of the one part in the way about its own axis; 0: none helps.
 int turn_that_helps(const Blocked& b, const Reach& reach) {
-  const auto part = static_cast<PartId>(reach.access.in_the_way.front());
+  const auto part = static_cast<PartId>(reach.access.obstacles.front());
   const auto at = std::find_if(b.there.begin(), b.there.end(), [&](const PlacedPart& p) { return p.part == part; });
   if (at == b.there.end() || !(at->pose == b.pose || (b.pose.inverse() * at->pose).is_identity(1e-12))) return 0;
   if (!may_turn(b, part)) return 0;
@@ -52,18 +52,19 @@ int turn_that_helps(const Blocked& b, const Reach& reach) {
 }  // namespace
 
 void add_advice(const Blocked& b, std::string& text, nlohmann::json& data) {
-  const std::vector<std::size_t>& way = b.best.access.in_the_way;
-  if (way.empty()) return;
+  const std::vector<std::size_t>& obstacles = b.best.access.obstacles;
+  if (obstacles.empty()) return;
   std::vector<std::string> names;
-  for (const std::size_t part : way) names.push_back(b.memo.assembly().parts[part].name);
-  if (std::none_of(way.begin(), way.end(), [&](std::size_t part) { return belongs(b, static_cast<PartId>(part)); })) {
+  for (const std::size_t part : obstacles) names.push_back(b.memo.assembly().parts[part].name);
+  if (std::none_of(obstacles.begin(), obstacles.end(),
+                   [&](std::size_t part) { return belongs(b, static_cast<PartId>(part)); })) {
     text += fmt::format(" There is room before {} {} there.", listed_names(names), names.size() > 1 ? "are" : "is");
     data["room_before"] = names;
   }
   for (const Reach& reach : b.others) {
     const int degrees = turn_that_helps(b, reach);
     if (degrees == 0) continue;
-    const std::string& part = b.memo.assembly().parts[reach.access.in_the_way.front()].name;
+    const std::string& part = b.memo.assembly().parts[reach.access.obstacles.front()].name;
     text += fmt::format(" There is room for {} if '{}' is turned by {} degrees first.",
                         use_text(*reach.tool, *reach.access.use), part, std::abs(degrees));
     data["turn_first"] = {

@@ -351,7 +351,7 @@ tools::Access FastenerMemo::room(const tools::Fastener& fastener, const tools::U
                                  std::span<const PlacedPart> there, const Pose& pose) {
   tools::Access access = tools::room_for(use, fastener, blocked.arcs());
   access.handle = pose.q * access.handle;
-  for (std::size_t& index : access.in_the_way) index = there[index].part;
+  for (std::size_t& index : access.obstacles) index = there[index].part;
   return access;
 }
 

@@ -217,7 +217,7 @@ class Judge {
           found.flipped = flipped;
           found.place = place + u;
           if (!found.reaches()) {
-            if (!turns && found.access.in_the_way.size() == 1) out.one_in_the_way.push_back(found);
+            if (!turns && found.access.obstacles.size() == 1) out.one_obstacle.push_back(found);
             if (!turns) keep_better(out.turning, std::move(found));
             continue;
           }
@@ -355,13 +355,13 @@ class Judge {
       text = fmt::format("No tool of the catalogue fits {}.", label(name(about), about));
     } else {
       std::vector<std::string> names;
-      for (const std::size_t part : best.access.in_the_way) names.push_back(name(static_cast<PartId>(part)));
+      for (const std::size_t part : best.access.obstacles) names.push_back(name(static_cast<PartId>(part)));
       text = fmt::format("No tool of the catalogue {} {}: {} {} in the way of {}.", does, label(name(about), about),
                          names.empty() ? "the other tool" : listed_names(names), names.size() > 1 ? "are" : "is",
                          use_text(*best.tool, *best.access.use));
       data["tool"] = best.tool->id;
       data["use"] = best.access.use->name;
-      for (const std::size_t part : best.access.in_the_way)
+      for (const std::size_t part : best.access.obstacles)
         data["in_the_way"].push_back(name(static_cast<PartId>(part)));
     }
     if (&about != &driven) data[turns ? "held" : "turned"] = name(about);
@@ -370,7 +370,7 @@ class Judge {
       data["left_out"] = other->id;
     }
     if (best.tool != nullptr && !turns)
-      add_advice({memo_, *a.task.turned, fastening_about(*a.task.turned), best, a.one_in_the_way,
+      add_advice({memo_, *a.task.turned, fastening_about(*a.task.turned), best, a.one_obstacle,
                   without(a.task.turned->part), pose, hand_},
                  text, data);
     if (verdict_.reason.empty()) verdict_.reason = fmt::format("no tool {} '{}'", does, name(about));

@@ -28,7 +28,7 @@ struct Reach {
 };
 
 inline void keep_better(Reach& best, Reach&& found) {
-  if (best.tool == nullptr || found.access.in_the_way.size() < best.access.in_the_way.size()) best = std::move(found);
+  if (best.tool == nullptr || found.access.obstacles.size() < best.access.obstacles.size()) best = std::move(found);
 }
 inline bool is_in(PartId part, std::span<const PlacedPart> list) {
   return std::any_of(list.begin(), list.end(), [&](const PlacedPart& p) { return p.part == part; });
@@ -46,7 +46,7 @@ struct Task {
 struct Answer {
   Task task;
   Reach turning, holding;
-  std::vector<Reach> one_in_the_way{};  // uses of tools that a single part keeps from turning it
+  std::vector<Reach> one_obstacle{};  // uses of tools that a single part keeps from turning it
   bool reaches() const { return turning.reaches() && (task.held == nullptr || holding.reaches()); }
 };
 

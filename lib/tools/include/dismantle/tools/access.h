@@ -56,7 +56,7 @@ struct Access {
   const Use* use = nullptr;                          ///< of the tool; null: the tool has none
   double start = 0;                                  ///< rad: the tool turns from here by the swing
   Eigen::Vector3d handle = Eigen::Vector3d::Zero();  ///< unit, in the middle of the swing; zero: it reaches nothing
-  std::vector<std::size_t> in_the_way;               ///< the fewest obstacles without which it had room, ascending
+  std::vector<std::size_t> obstacles;                ///< the fewest obstacles without which it had room, ascending
   bool reaches() const { return !handle.isZero(); }
 };
 
