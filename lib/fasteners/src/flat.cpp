@@ -29,7 +29,12 @@ std::optional<Shape> flat_of(const Mesh& mesh, double mm) {
   const std::string size =
       fmt::format("{}x{}x{}", number(std::round(box.z() * mm * 10) / 10), number(std::round(box.y() * mm * 10) / 10),
                   number(std::round(box.x() * mm * 100) / 100));
-  if (box.x() < 0.2 * box.y() && faces.front().area > 0.6 * area && volume > 0.4 * box.prod() / 1.6) {
+  // What it covers, seen across its faces. A tray is higher than it is thick on average.
+  double covered = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    covered += std::abs(geometry::area_vector(mesh, t).dot(faces.front().axis.normalized())) / 4;
+  if (box.x() < 0.2 * box.y() && faces.front().area > 0.6 * area && volume > 0.25 * box.prod() &&
+      volume > 0.5 * covered * box.x()) {
     s.kind = Kind::plate;
     s.axis = faces.front().axis.normalized();
     s.confidence = 0.7;

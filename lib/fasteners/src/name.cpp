@@ -234,6 +234,9 @@ NameSays recognise_name(std::string_view given) {
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     if (tokens[i].text == "lead" && i + 1 < tokens.size() && tokens[i + 1].text == "screw") continue;
     if (tokens[i].text == "plate" && i > 0 && tokens[i - 1].text.starts_with("rondelle")) continue;  // French: flat
+    // "2Pin" counts the contacts of a connector.
+    if ((tokens[i].text == "pin" || tokens[i].text == "pins") && tokens[i].at > 0 && is_digit(name[tokens[i].at - 1]))
+      continue;
     const Word* word = word_of(tokens[i].text);
     // "O-ring" and "stand-off" are two tokens.
     if (tokens[i].text == "ring" && i > 0 &&

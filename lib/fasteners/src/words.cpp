@@ -49,6 +49,7 @@ constexpr std::array kWords{
     Word{"schraube", screw, false},
     Word{"schrauben", screw, false},
     Word{"gewindestift", screw, false},
+    Word{"verschraubung", screw, true},
     Word{"shcs", screw, true},
     Word{"bhcs", screw, true},
     Word{"fhcs", screw, true},
@@ -179,6 +180,19 @@ constexpr std::array kWords{
     Word{"lid", kNothing, true},
     Word{"knob", kNothing, true},
     Word{"halter", kNothing, false},
+    Word{"halterung", kNothing, false},
+    Word{"lagerbock", kNothing, false},
+    Word{"base", kNothing, true},
+    Word{"tray", kNothing, true},
+    Word{"case", kNothing, true},
+    Word{"frame", kNothing, true},
+    Word{"arm", kNothing, true},
+    Word{"seat", kNothing, true},
+    Word{"lever", kNothing, true},
+    Word{"handle", kNothing, true},
+    Word{"connector", kNothing, true},
+    Word{"header", kNothing, true},
+    Word{"terminal", kNothing, true},
 };
 
 }  // namespace

@@ -39,6 +39,12 @@ TEST(RecogniseName, ReadsStandardsWordsAndSizes) {
       // Words of a kind inside a name for something else.
       {"screw cover", std::nullopt, "", 0},
       {"Motor mount", std::nullopt, "", 0},
+      {"gear_base", std::nullopt, "", 0},
+      {"Base screw", screw, "", 0},
+      {"JST - XH - Thru - 2Pin - 2.5mm", std::nullopt, "", 0},
+      {"Pin header 2x20", std::nullopt, "", 0},
+      {"03_pin", pin, "", 0},
+      {"Verschraubung", screw, "", 0},
       {"Spring plunger GN 615.3-M3-K", std::nullopt, "M3", 0},
       {"M10x1.25", std::nullopt, "M10", 0},  // a fine thread, no length
       {"part_12", std::nullopt, "", 0},
