@@ -253,7 +253,7 @@ PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, con
     if (!timed.goes_on(pause.steps - spent)) return timed.result();
     spent = pause.steps;
     const Clock::time_point begin = Clock::now();
-    answer.certificate = pause.proof();
+    answer.certificate = pause.proof(search->result().blocked_by);
     answer.proof_seconds += seconds_since(begin);
     if (answer.certificate != nullptr) {
       PathResult result = search->result();

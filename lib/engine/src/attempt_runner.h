@@ -15,10 +15,11 @@
 
 namespace dismantle {
 
-/// A proof to try once a search has spent this number of steps and state checks. Null: the search continues.
+/// A proof to try once a search has spent this number of steps and state checks. Null: the search continues. It is told
+/// the parts that the search has touched so far, those that it touched most first.
 struct SearchPause {
   std::uint64_t steps = 0;  ///< > 0, more than at the previous pause
-  std::function<const Certificate*()> proof;
+  std::function<const Certificate*(const std::vector<PartId>& touched)> proof;
 };
 
 struct ComputedAttempt {

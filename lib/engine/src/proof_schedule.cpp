@@ -25,6 +25,11 @@ bool as_deep(const Attempt& attempt, unsigned depth) { return attempt.max_depth 
 
 bool is_pair(const Attempt& attempt) { return attempt.moving.size() == 1 && attempt.fixed.size() == 1; }
 
+// From this depth on, a search for a path of one part among several costs more than proofs of low effort about a few
+// pairs.
+constexpr unsigned kDepthOfHolders = 2;
+constexpr std::size_t kMostHolders = 2;
+
 bool found_nothing(Outcome o) { return o == Outcome::depth_limit || o == Outcome::exhausted || o == Outcome::timeout; }
 
 }  // namespace
@@ -169,19 +174,25 @@ bool ProofSchedule::is_provable(const Attempt& attempt, unsigned depth) const {
 
 std::vector<SearchPause> ProofSchedule::during(const Attempt& attempt, const RunContext& context) {
   std::vector<SearchPause> pauses;
-  if (is_provable(attempt, options_.low_effort_depth))
+  const bool low = is_provable(attempt, options_.low_effort_depth);
+  if (low || is_holdable(attempt))
     pauses.push_back({static_cast<std::uint64_t>(options_.low_effort_steps),
-                      [this, &attempt, &context] { return prove_low(attempt, context); }});
+                      [this, low, &attempt, &context](const std::vector<PartId>& touched) {
+                        const Certificate* found = low ? prove_low(attempt, context) : nullptr;
+                        return found != nullptr ? found : prove_held(attempt, touched, context);
+                      }});
   if (is_pair(attempt) && is_provable(attempt, options_.medium_effort_depth) &&
       options_.medium_effort_steps > options_.low_effort_steps)
-    pauses.push_back({static_cast<std::uint64_t>(options_.medium_effort_steps), [this, &attempt, &context] {
+    pauses.push_back({static_cast<std::uint64_t>(options_.medium_effort_steps),
+                      [this, &attempt, &context](const std::vector<PartId>&) {
                         return prove_pair(attempt.moving.front().part, attempt.fixed.front().part, ProofEffort::medium,
                                           context);
                       }});
   // The reduced tolerance tells whether there is hope; only a proof for the whole one ends a search.
   if (is_pair(attempt) && is_provable(attempt, options_.medium_effort_depth) &&
       options_.high_effort_steps > std::max(options_.low_effort_steps, options_.medium_effort_steps))
-    pauses.push_back({static_cast<std::uint64_t>(options_.high_effort_steps), [this, &attempt, &context] {
+    pauses.push_back({static_cast<std::uint64_t>(options_.high_effort_steps),
+                      [this, &attempt, &context](const std::vector<PartId>&) {
                         const PartId a = attempt.moving.front().part, b = attempt.fixed.front().part;
                         const bool provable = prove_reduced(a, b, context) != nullptr;
                         return provable ? prove_pair(a, b, ProofEffort::high, context) : nullptr;
@@ -193,6 +204,21 @@ const Certificate* ProofSchedule::prove_low(const Attempt& attempt, const RunCon
   if (const Certificate* found = prove_placed(attempt, context)) return found;
   if (!is_pair(attempt)) return nullptr;
   return prove({{attempt.moving.front().part, attempt.fixed.front().part}, ProofEffort::low, 1}, context);
+}
+
+bool ProofSchedule::is_holdable(const Attempt& attempt) const {
+  return attempt.moving.size() == 1 && attempt.fixed.size() > 1 && is_provable(attempt, kDepthOfHolders);
+}
+
+/// Is the part held by one of those that it touched most: a rivet by a plate, a pin with two heads by a hinge?
+const Certificate* ProofSchedule::prove_held(const Attempt& attempt, const std::vector<PartId>& touched,
+                                             const RunContext& context) {
+  if (!is_holdable(attempt)) return nullptr;
+  const PartId part = attempt.moving.front().part;
+  for (std::size_t k = 0; k < std::min(touched.size(), kMostHolders); ++k)
+    if (has_part(attempt.fixed, touched[k]))
+      if (const Certificate* found = prove({{part, touched[k]}, ProofEffort::low, 1}, context)) return found;
+  return nullptr;
 }
 
 const Certificate* ProofSchedule::prove_pair(PartId a, PartId b, ProofEffort most, const RunContext& context) {
@@ -210,7 +236,9 @@ const Certificate* ProofSchedule::prove_reduced(PartId a, PartId b, const RunCon
 /// Tries expensive proofs only for pairs. Larger sets wait until the sequence planner asks or the run ends, because
 /// most of their parts can leave once others have left.
 const Certificate* ProofSchedule::after(const Attempt& attempt, const PathResult& result, const RunContext& context) {
-  if (!found_nothing(result.outcome()) || !is_provable(attempt, options_.low_effort_depth)) return nullptr;
+  if (!found_nothing(result.outcome())) return nullptr;
+  if (const Certificate* found = prove_held(attempt, result.blocked_by, context)) return found;
+  if (!is_provable(attempt, options_.low_effort_depth)) return nullptr;
   if (const Certificate* found = prove_low(attempt, context)) return found;
   if (!is_pair(attempt) || !is_provable(attempt, options_.medium_effort_depth)) return nullptr;
   const PartId a = attempt.moving.front().part, b = attempt.fixed.front().part;

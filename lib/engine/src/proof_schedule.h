@@ -75,6 +75,8 @@ class ProofSchedule {
   const Certificate* prove_reduced(PartId a, PartId b, const RunContext& context);
   const Certificate* prove_placed(const Attempt& attempt, const RunContext& context);
   const Certificate* prove_low(const Attempt& attempt, const RunContext& context);
+  bool is_holdable(const Attempt& attempt) const;
+  const Certificate* prove_held(const Attempt& attempt, const std::vector<PartId>& touched, const RunContext& context);
   bool is_provable(const Attempt& attempt, unsigned depth) const;
 
   const Assembly& assembly_;
