@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "dismantle/testing/shapes.h"
 #include "dismantle/geometry/pair_check.h"
+#include "dismantle/testing/shapes.h"
 
 namespace dismantle::geometry {
 namespace {
@@ -46,7 +46,8 @@ TEST(Sampling, StopsAtWhatTheProofWouldFindToo) {
   EXPECT_GT(within, 15);
 }
 
-/// What slides along a face touches it, up to rounding: no sample of that is deeper than a wall without thickness allows.
+/// What slides along a face touches it, up to rounding: no sample of that is deeper than a wall without thickness
+/// allows.
 TEST(Sampling, TouchingIsNoPenetration) {
   Rng rng(23);
   for (int trial = 0; trial < 40; ++trial) {

@@ -43,7 +43,7 @@ void Run::make_strategies() {
     list_.add(std::make_unique<TargetFirst>(state_, *straight_));
     if (params_.upwards == Upwards::on) {
       for (const DirectionFilter filter : {DirectionFilter::up, DirectionFilter::not_down})
-        list_.add(std::make_unique<HighestFirst>(state_, *straight_, stated_, filter));
+        if (!stated_.empty()) list_.add(std::make_unique<HighestFirst>(state_, *straight_, stated_, filter));
       list_.add(std::make_unique<FreePart>(state_, *straight_, DirectionFilter::up));
       list_.add(std::make_unique<FreePart>(state_, *straight_, DirectionFilter::not_down));
       if (params_.groups)

@@ -10,7 +10,8 @@ namespace dismantle::blocking {
 
 StatedGroups::StatedGroups(const Assembly& assembly) {
   std::map<std::string, std::set<PartId>> parts;
-  for (const ReferenceStep& step : assembly.reference_order) parts[step.group].insert(step.parts.begin(), step.parts.end());
+  for (const ReferenceStep& step : assembly.reference_order)
+    parts[step.group].insert(step.parts.begin(), step.parts.end());
   for (const auto& [name, list] : parts)
     if (list.size() > 1) groups_.emplace_back(list.begin(), list.end());
   std::stable_sort(groups_.begin(), groups_.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });

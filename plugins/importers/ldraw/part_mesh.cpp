@@ -10,8 +10,8 @@ namespace dismantle::ldraw {
 
 namespace {
 
-/// LDraw units. Files state three or four decimals, and primitives meet polygons with rounded corners: nearer than that,
-/// corners at open edges are one. Slivers between them would be walls without thickness.
+/// LDraw units. Files state three or four decimals, and primitives meet polygons with rounded corners: nearer than
+/// that, corners at open edges are one. Slivers between them would be walls without thickness.
 constexpr double kAccuracy = 0.01;
 
 }  // namespace

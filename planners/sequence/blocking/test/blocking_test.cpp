@@ -103,11 +103,13 @@ std::vector<std::pair<std::string, std::vector<fake::Box>>> towers(Rng& rng, std
   return parts;
 }
 
-TEST(Blocking, UpwardsTakesTheHighestFirst) {
+TEST(Blocking, UpwardsTakesTheHighestFirstOfWhatPeopleBuildInSteps) {
   Rng rng(5);
   for (int trial = 0; trial < 5; ++trial) {
     std::map<std::string, double> top;
-    const Assembly assembly = fake::assembly_of(towers(rng, top));
+    Assembly assembly = fake::assembly_of(towers(rng, top));
+    assembly.reference_order.push_back({1, {}, ""});
+    for (const Part& part : assembly.parts) assembly.reference_order[0].parts.push_back(part.id);
     BlockingParams params;
     params.upwards = blocking::Upwards::on;
     const RunResult r = take_apart(assembly, 1, {}, &helpless, {}, params);

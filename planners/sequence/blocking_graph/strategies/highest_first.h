@@ -1,8 +1,9 @@
-/// Removes what reaches highest of that which nothing blocks, so that the reverse builds from bottom to top. A group that
-/// the file states leaves whole, if it can.
+/// Removes what reaches highest of that which nothing blocks, so that the reverse builds from bottom to top. A group
+/// that the file states leaves whole, if it can.
 #pragma once
 
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
