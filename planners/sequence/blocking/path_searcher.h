@@ -18,8 +18,6 @@ class PathSearcher {
   Subassemblies candidates(const GroupState& group);
   /// Searches for a path of each of `ids` in order, until one leaves. True: one has left.
   bool search_each(GroupState& group, const Subassemblies& ids, unsigned depth);
-  /// Is this pair held by a snap fit?
-  bool is_snapped(const GroupState& pair) { return snaps_.holds_pair(pair); }
 
  private:
   void sort_by_use(const GroupState& group, Subassemblies& ids);

@@ -48,9 +48,7 @@ unsigned SearchHistory::max_depth(const GroupState& group) const {
 }
 
 unsigned SearchHistory::next_depth_of_pair(const GroupState& group, bool others_wait) const {
-  const unsigned next = others_wait && group.pair_depth < params_.pair_depth ? 2 * group.pair_depth : 0;
-  if (!snapped_pairs_.contains(group.id)) return next;
-  return next == 0 ? params_.snap_pair_depth : std::min(next, params_.snap_pair_depth);
+  return others_wait && group.pair_depth < params_.pair_depth ? 2 * group.pair_depth : 0;
 }
 
 /// Simulated steps and state checks take longer for parts with more triangles. Counts are used instead of seconds

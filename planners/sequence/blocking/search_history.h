@@ -1,9 +1,7 @@
 /// Results of the path searches for single parts, and which searches are worthwhile next.
 #pragma once
 
-#include <cstddef>
 #include <map>
-#include <set>
 #include <vector>
 
 #include "blocking/parameters.h"
@@ -43,11 +41,7 @@ class SearchHistory final : public GroupListener {
   /// Largest depth worth searching. Deep searches are for paths of many translations, so the depth is smaller after the
   /// search for partial translations has visited all arrangements.
   unsigned max_depth(const GroupState& group) const;
-  /// A snap fit holds this pair: its searches are no deeper than `snap_pair_depth`.
-  void set_snapped(const GroupState& pair) { snapped_pairs_.insert(pair.id); }
-  bool is_snapped(const GroupState& pair) const { return snapped_pairs_.contains(pair.id); }
-  /// Twice the depth of the pair's last search. 0 (no limit): no other pair waits, or that depth is `pair_depth`; and
-  /// no snap fit holds the pair.
+  /// Twice the depth of the pair's last search. 0 (no limit): no other pair waits, or that depth is `pair_depth`.
   unsigned next_depth_of_pair(const GroupState& group, bool others_wait) const;
   /// Sorts by the cost of the last search, because a cheap search is usually cheap one level deeper, and a part that
   /// leaves frees others. Parts searched to this depth before come later: more of their blockers may have left by then.
@@ -64,7 +58,6 @@ class SearchHistory final : public GroupListener {
 
   const DisassemblyState& state_;
   const PathSearchParams& params_;
-  std::set<std::size_t> snapped_pairs_;  ///< ids of groups
   std::map<PartId, PastSearch> last_;
   double work_ = 0;
   std::map<PartId, int> cost_;  ///< of the last search for the part, logarithmic

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "dismantle/geometry/mesh_measure.h"
 
@@ -33,45 +32,13 @@ void SnapFits::searched(const GroupState& group, SubassemblyId id, unsigned dept
   if (found)
     failed_.clear();
   else
-    failed_[id] = std::max(failed_[id], depth == 0 ? std::numeric_limits<unsigned>::max() : depth);
-}
-
-bool SnapFits::has_evidence(const GroupState& group) {
-  if (has_evidence()) return true;
-  if (failed_.empty()) return false;
-  const auto searched = [&](SubassemblyId id) {
-    const auto known = failed_.find(id);
-    return known != failed_.end() && known->second >= params_.snap_depth_of_few;
-  };
-  return std::any_of(group.members.begin(), group.members.end(), searched) &&
-         std::all_of(group.members.begin(), group.members.end(),
-                     [&](SubassemblyId id) { return searched(id) || !holding(group, id); });
-}
-
-bool SnapFits::holds_all(const GroupState& group) {
-  if (group.members.size() > params_.snap_group) return false;
-  std::size_t others = 0;
-  for (const SubassemblyId id : group.members) {
-    if (!holding(group, id)) ++others;
-    if (others > 1 || state_.context().should_stop()) return false;
-  }
-  return true;
-}
-
-bool SnapFits::holds_pair(const GroupState& pair) {
-  return std::any_of(pair.members.begin(), pair.members.end(),
-                     [&](SubassemblyId id) { return applies(id) && measured(pair, id).has_value(); });
-}
-
-bool SnapFits::applies(SubassemblyId id) const {
-  return params_.snap_share > 0 && straight_ != nullptr && oracle_.forcing() != nullptr && state_.is_single(id);
+    failed_.insert(id);
 }
 
 std::optional<MotionDepth> SnapFits::alone(const GroupState& group, SubassemblyId id) {
-  return applies(id) && state_.assembly().parts.size() >= 3 ? measured(group, id) : std::nullopt;
-}
-
-std::optional<MotionDepth> SnapFits::measured(const GroupState& group, SubassemblyId id) {
+  if (!(params_.snap_share > 0) || straight_ == nullptr || oracle_.forcing() == nullptr || !state_.is_single(id) ||
+      state_.assembly().parts.size() < 3)
+    return std::nullopt;
   if (arrangement_ != state_.arrangement()) known_.clear();
   arrangement_ = state_.arrangement();
   const std::pair key(id, group.members);

@@ -18,10 +18,9 @@ Result PairSearch::apply(GroupState& group) {
 /// True: the pair was separated.
 bool PairSearch::search(GroupState& group) {
   const bool proved = group.proof != nullptr;
-  if (!proved && !history_.is_snapped(group) && searcher_.is_snapped(group)) history_.set_snapped(group);
   const unsigned depth =
       proved ? history_.max_depth(group) : history_.next_depth_of_pair(group, lookahead_.other_pairs_wait());
-  const bool last = depth == 0 || proved || (history_.is_snapped(group) && depth >= params_.snap_pair_depth);
+  const bool last = depth == 0 || proved;
   if (depth != 0) group.pair_depth = depth;
   const Subassemblies candidates = searcher_.candidates(group);
   Subassemblies open;
