@@ -82,6 +82,7 @@ void BlockingParams::describe(Schema<BlockingParams>& s) {
               "searched for to depth 1 only, if parts may be forced (run.force). 0: no part."});
   s.advanced("snap_failures", &BlockingParams::snap_failures, {1, 1000});
   s.advanced("snap_depth", &BlockingParams::snap_depth, {2, 1000});
+  s.advanced("snap_depth_of_few", &BlockingParams::snap_depth_of_few, {2, 1000});
   s.advanced("snap_directions", &BlockingParams::snap_directions, {1, 1000});
   s.advanced("snap_group", &BlockingParams::snap_group);
   s.advanced("pair_depth", &BlockingParams::pair_depth, {1});

@@ -106,6 +106,9 @@ struct SnapParams {
   double snap_share = 0.1;
   unsigned snap_failures = 4;     ///< Parts whose deep searches found nothing, before there are no more.
   unsigned snap_depth = 2;        ///< Smallest depth of a search that counts as deep.
+  /// Depth to which all parts of a group that are held so were searched for, before there are no more: there need not
+  /// be `snap_failures` of them.
+  unsigned snap_depth_of_few = 3;
   unsigned snap_directions = 24;  ///< Largest number of directions that are measured for one part.
   unsigned snap_group = 32;       ///< Largest group in which snap fits that hold each other are looked for.
 };

@@ -54,7 +54,7 @@ void Run::make_strategies() {
   }
   if (params_.repeated_paths && sweep_) list_.add(std::make_unique<RepeatedPath>(state_, oracle_, *sweep_, params_));
   if (params_.translation_states > 0 && sweep_)
-    list_.add(std::make_unique<PartialTranslation>(state_, oracle_, *sweep_, straight_.get(), params_));
+    list_.add(std::make_unique<PartialTranslation>(state_, oracle_, *sweep_, straight_.get(), *snaps_, params_));
   if (straight_ && params_.rotations)
     list_.add(std::make_unique<RotationInPlace>(state_, oracle_, *straight_, *sweep_, params_));
   if (straight_ && params_.simultaneous)

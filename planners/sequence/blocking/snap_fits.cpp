@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "dismantle/geometry/mesh_measure.h"
 
@@ -32,7 +33,29 @@ void SnapFits::searched(const GroupState& group, SubassemblyId id, unsigned dept
   if (found)
     failed_.clear();
   else
-    failed_.insert(id);
+    failed_[id] = std::max(failed_[id], depth == 0 ? std::numeric_limits<unsigned>::max() : depth);
+}
+
+bool SnapFits::has_evidence(const GroupState& group) {
+  if (has_evidence()) return true;
+  if (failed_.empty()) return false;
+  const auto searched = [&](SubassemblyId id) {
+    const auto known = failed_.find(id);
+    return known != failed_.end() && known->second >= params_.snap_depth_of_few;
+  };
+  return std::any_of(group.members.begin(), group.members.end(), searched) &&
+         std::all_of(group.members.begin(), group.members.end(),
+                     [&](SubassemblyId id) { return searched(id) || !holding(group, id); });
+}
+
+bool SnapFits::holds_all(const GroupState& group) {
+  if (group.members.size() > params_.snap_group) return false;
+  std::size_t others = 0;
+  for (const SubassemblyId id : group.members) {
+    if (!holding(group, id)) ++others;
+    if (others > 1 || state_.context().should_stop()) return false;
+  }
+  return true;
 }
 
 std::optional<MotionDepth> SnapFits::alone(const GroupState& group, SubassemblyId id) {

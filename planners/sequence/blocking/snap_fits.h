@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -20,8 +19,8 @@ namespace dismantle::blocking {
 /// than a share of the smaller part, and by less than parts that go through each other's walls. Such parts bend when
 /// they are put together. What is free when such parts are off is held so, too. No rigid motion takes most of them
 /// out. When a few deep searches of such parts have found nothing, the others are searched for to depth 1 only, and
-/// left to forced steps. Without these (`run.force: off`, `bench`) no part counts as held so, nor in an assembly of two
-/// parts.
+/// left to forced steps; so are all when there are few and each was searched for deeper. Without forced steps
+/// (`run.force: off`, `bench`) no part counts as held so, nor in an assembly of two parts.
 class SnapFits {
  public:
   /// `straight`: null when switched off; then no part counts. `known_before`: an earlier planner of the run has
@@ -34,13 +33,16 @@ class SnapFits {
   std::optional<MotionDepth> holding(const GroupState& group, SubassemblyId id);
   /// Whether to search no deeper: it is held so, and enough deep searches of parts that are held so found nothing.
   bool is_snap_fit(const GroupState& group, SubassemblyId id) {
-    return has_evidence() && holding(group, id).has_value();
+    return has_evidence(group) && holding(group, id).has_value();
   }
+  /// Are all parts of the group held so, but for one at most? Then it is no puzzle of translations.
+  bool holds_all(const GroupState& group);
   /// Records a search: what searches of at least `snap_depth` for parts that are held so find, decides for the others.
   void searched(const GroupState& group, SubassemblyId id, unsigned depth, bool found);
 
  private:
   bool has_evidence() const { return known_before_ || failed_.size() >= params_.snap_failures; }
+  bool has_evidence(const GroupState& group);
   /// By motions of this part alone.
   std::optional<MotionDepth> alone(const GroupState& group, SubassemblyId id);
   double deepest_snap(PartId part, PartId other) const;
@@ -56,7 +58,8 @@ class SnapFits {
   std::map<std::pair<SubassemblyId, Subassemblies>, std::optional<MotionDepth>> known_;
   std::uint64_t arrangement_ = 0;
   bool known_before_;                 ///< an earlier planner of the run has left parts
-  std::set<SubassemblyId> failed_{};  ///< parts whose deep searches found nothing, since one found something
+  /// Parts whose deep searches found nothing, with the greatest depth, since a search found something.
+  std::map<SubassemblyId, unsigned> failed_{};
 };
 
 }  // namespace dismantle::blocking

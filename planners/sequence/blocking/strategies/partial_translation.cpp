@@ -18,10 +18,12 @@ constexpr double kShareOfProof = 0.5;
 }  // namespace
 
 PartialTranslation::PartialTranslation(DisassemblyState& state, PathOracle& oracle, const PairSweep& sweep,
-                                       StraightMotion* straight, const PartialTranslationParams& params)
+                                       StraightMotion* straight, SnapFits& snaps,
+                                       const PartialTranslationParams& params)
     : state_(state),
       oracle_(oracle),
       straight_(straight),
+      snaps_(snaps),
       params_(params),
       translations_(state.assembly(), oracle.tolerance(), params),
       on_grid_(state.assembly(), sweep) {}
@@ -118,7 +120,7 @@ TranslationSearch::Answer PartialTranslation::find(GroupState& group) {
     found = translations_.search(places, most_states, work, state_.context());
     found.states += on_grid;
   }
-  group.translations_limited = found.end == End::too_long;
+  group.translations_limited = found.end == End::too_long && !snaps_.holds_all(group);
   group.translations_exhausted = found.end == End::exhausted;
   state_.count("translation_states", static_cast<double>(found.states));
   std::string& note = progress.note;

@@ -5,6 +5,7 @@
 
 #include "blocking/lattice_search.h"
 #include "blocking/parameters.h"
+#include "blocking/snap_fits.h"
 #include "blocking/translation_search.h"
 #include "blocking_graph/straight_motion.h"
 #include "blocking_graph/strategy.h"
@@ -15,7 +16,7 @@ class PartialTranslation final : public Strategy {
  public:
   /// `straight`: null when straight removals are switched off; then only translations within the group are made.
   PartialTranslation(DisassemblyState& state, PathOracle& oracle, const PairSweep& sweep, StraightMotion* straight,
-                     const PartialTranslationParams& params);
+                     SnapFits& snaps, const PartialTranslationParams& params);
   std::string_view name() const noexcept override { return "partial_translation"; }
   Cost cost() const noexcept override { return Cost::arrangements; }
   Result apply(GroupState& group) override;
@@ -45,6 +46,7 @@ class PartialTranslation final : public Strategy {
   DisassemblyState& state_;
   PathOracle& oracle_;
   StraightMotion* straight_;
+  SnapFits& snaps_;
   const PartialTranslationParams& params_;
   TranslationSearch translations_;
   LatticeSearch on_grid_;

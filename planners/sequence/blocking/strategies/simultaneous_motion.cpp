@@ -104,9 +104,11 @@ std::optional<Attempt> SimultaneousMotion::attempt_for(const GroupState& group, 
 }
 
 /// As for single parts, a search is repeated when a part that it touched has left; deeper only if several parts moved.
-/// Parts that snap fits hold leave one by one.
+/// Parts that snap fits hold leave one by one; those that are proved to be held do not leave.
 bool SimultaneousMotion::is_worthwhile(const GroupState& group, const Subassemblies& ids, unsigned round) {
-  if (std::all_of(ids.begin(), ids.end(), [&](SubassemblyId s) { return snaps_.is_snap_fit(group, s); })) return false;
+  if (std::all_of(ids.begin(), ids.end(),
+                  [&](SubassemblyId s) { return snaps_.is_snap_fit(group, s) || is_held(group, s); }))
+    return false;
   const auto known = last_.find(ids);
   if (known == last_.end()) return true;
   const PastMotion& last = known->second;
@@ -114,6 +116,15 @@ bool SimultaneousMotion::is_worthwhile(const GroupState& group, const Subassembl
                   [&](PartId part) { return !group.contains(state_.subassembly_of(part)); }))
     return true;
   return last.outcome == Outcome::depth_limit && last.depth < depth_of(round) && last.several_moved;
+}
+
+/// Is it proved that another part of the group holds it?
+bool SimultaneousMotion::is_held(const GroupState& group, SubassemblyId id) const {
+  const Unsolved* failure = state_.failure_of(state_.part_of(id));
+  return failure != nullptr && failure->outcome == Outcome::infeasible && failure->certificate != nullptr &&
+         failure->certificate->parts.size() == 2 && failure->certificate->poses.empty() &&
+         std::all_of(failure->certificate->parts.begin(), failure->certificate->parts.end(),
+                     [&](PartId part) { return group.contains(state_.subassembly_of(part)); });
 }
 
 /// Searches for a motion of the k-th set.

@@ -98,6 +98,11 @@ TEST(SnapFits, HoldAlsoWhatIsFreeWithoutThem) {
 
 TEST(SnapFits, AreNoDeepCuts) { EXPECT_GT(most_of(deepest_searches(clipped(0.8), ForceWhen::last_resort)), 1u); }
 
+TEST(SnapFits, FewPartsThatAreAllSearchedForAreLeftToForcedSteps) {
+  EXPECT_LE(most_of(deepest_searches(clipped(0.1), ForceWhen::last_resort)), BlockingParams{}.snap_depth_of_few);
+  EXPECT_GT(most_of(deepest_searches(clipped(0.1), ForceWhen::off)), BlockingParams{}.snap_depth_of_few);
+}
+
 TEST(SnapFits, DoNotCountInAnAssemblyOfTwoParts) {
   EXPECT_GT(most_of(deepest_searches(clipped(0.1, false), ForceWhen::last_resort)), 1u);
 }
