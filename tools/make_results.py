@@ -8,12 +8,10 @@ again), and writes the output of `dismantle report`: README.md with the tables, 
 a CSV file of all trials. DIR contains the third-party assemblies; without it only the samples are compared.
 """
 import argparse
-import contextlib
 import csv
 import io
 import os
 import platform
-import sqlite3
 import subprocess
 import sys
 
@@ -141,11 +139,6 @@ class Results:
     def seconds(self):
         return sum(float(t["wall s"]) for t in self.trials)
 
-    def tolerance(self):
-        """The verifier's tolerance; one suite has one."""
-        with contextlib.closing(sqlite3.connect(os.path.join(self.folder, "results.db"))) as results:
-            return results.execute("SELECT DISTINCT verify_max_penetration FROM trials").fetchone()[0]
-
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -170,7 +163,7 @@ def main():
         refused += sum(t["verified"] == "no" for t in claimed)
         unverified += sum(t["verified"] != "no" for t in claimed)
         assemblies = list(dict.fromkeys(t["assembly"] for t in results.trials))
-        text += f"\n## {title}\n\n{words} {len(assemblies)} assemblies, {len(results.trials)} trials: {', '.join(assemblies)}. Most solved: {results.best()}. Plans are verified with a tolerance of {results.tolerance():g}.\n"
+        text += f"\n## {title}\n\n{words} {len(assemblies)} assemblies, {len(results.trials)} trials: {', '.join(assemblies)}. Most solved: {results.best()}.\n"
         for table, heading, paper in tables:
             text += f"\n### {heading}\n\n{markdown(results.table(table))}\n{paper}"
         text += f"\n### Success over time\n\n![Share of trials solved within a time]({name}.svg)\n"
@@ -201,7 +194,7 @@ seconds (`limits` in the suites) and far smaller than the paper's, so that this 
 seconds, not what it can solve at all. The assemblies are few and of our choice, so the intervals are wide; the paper's figures beside ours are of
 its own data set of thousands, with its limits, and are there for their form and for the order of the methods, not for the numbers.
 Times are CPU seconds of this machine, from reading the input to the plan. **Precision** is the deepest penetration that the verifier certifies along a whole plan, beyond the overlap of the parts when
-assembled, of an assembly scaled to size 10; each section states the verifier's tolerance.
+assembled, of an assembly scaled to size 10; the tolerance is 0.01.
 
 [benchmark.md](../benchmark.md) says how suites, limits and reports work; [planners](../planners/README.md) what the path planners do.
 """

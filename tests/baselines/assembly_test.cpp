@@ -21,8 +21,7 @@ struct Planned {
 };
 
 Planned plan(const std::string& sample, const ParamSet& parameters, Settings set = {}, unsigned threads = 1) {
-  set.insert(set.end(), {"simulator.type=fcl", "path_planner.type=mv_t_rrt", "run.path_timeout=0", "run.force=off",
-                         "verify.max_penetration=0.01"});  // of the paper, for which this planner is meant
+  set.insert(set.end(), {"simulator.type=fcl", "path_planner.type=mv_t_rrt", "run.path_timeout=0", "run.force=off"});
   if (std::none_of(set.begin(), set.end(), [](const std::string& s) { return s.starts_with("run.path_steps="); }))
     set.push_back("run.path_steps=100000");
   const Session session({{}, set, {}});
@@ -35,7 +34,7 @@ Planned plan(const std::string& sample, const ParamSet& parameters, Settings set
 
 void expect_valid(const Plan& plan, const Assembly& assembly) {
   RunContext context;
-  const PlanCheck check = check_plan(plan, assembly, VerifyOptions{.max_penetration = 0.01}, context);
+  const PlanCheck check = check_plan(plan, assembly, VerifyOptions{}, context);
   EXPECT_TRUE(check.valid);
   for (const auto& p : check.problems) ADD_FAILURE() << p.step << ": " << p.message;
 }

@@ -14,10 +14,9 @@ namespace {
 
 using Settings = std::vector<std::string>;
 
-/// With the tolerance of the paper, for which these planners are meant.
 Session session_of(const std::string& planner, const std::string& simulator, Settings set) {
   set.insert(set.end(), {"simulator.type=" + simulator, "path_planner.type=" + planner, "run.path_timeout=0",
-                         "run.force=off", "layout.enabled=false", "verify.max_penetration=0.01"});
+                         "run.force=off", "layout.enabled=false"});
   return Session({{}, set, {}});
 }
 

@@ -9,7 +9,6 @@
 
 #include "bindings.h"
 #include "dismantle/errors.h"
-#include "dismantle/plan.h"
 #include "interruptible.h"
 #include "world.h"
 #include "worlds.h"
@@ -142,13 +141,13 @@ void bind_simulator(py::module_& m) {
       .def_property_readonly("id", &HeldSimulator::id, "Id of the plugin.")
       .def_property_readonly("capabilities", &HeldSimulator::capabilities, "Capabilities.")
       .def("world", &HeldSimulator::world, py::arg("assembly"), py::arg("moving"), py::arg("fixed") = py::none(),
-           py::arg("space") = "rigid", py::arg("tolerance") = kLargestTolerance,
+           py::arg("space") = "rigid", py::arg("tolerance") = kDefaultTolerance,
            "Makes a World. moving, fixed: names or numbers of parts; fixed None: all that do not move. space: 'rigid' "
            "or "
            "'translation' (orientation is locked). tolerance: penetration that the verifier lets pass, assembly units, "
            "> 0.")
       .def("worlds", &HeldSimulator::worlds, py::arg("assembly"), py::arg("moving"), py::arg("count"),
-           py::arg("fixed") = py::none(), py::arg("space") = "rigid", py::arg("tolerance") = kLargestTolerance,
+           py::arg("fixed") = py::none(), py::arg("space") = "rigid", py::arg("tolerance") = kDefaultTolerance,
            py::arg("threads") = 1,
            "Makes `count` equal worlds that are stepped together on `threads` threads: Worlds.");
 }
