@@ -157,7 +157,7 @@ TEST(ProofSchedule, ALongSearchOfAPairWaitsForTheMostExpensiveProof) {
       int cut_short = 0;
       Rig s(row(2), with(fake::setup(spending(is_long ? 2 * steps : 100, cut_short)), {high}), 1, options);
       const AttemptResult& r = s.ask(leave(s.assembly, 0, 0));
-      const std::vector<double> asked = !is_long ? std::vector<double>{}
+      const std::vector<double> asked = !is_long       ? std::vector<double>{}
                                         : provable > 0 ? std::vector<double>{options.proofs.reduced_tolerance, 1}
                                                        : std::vector<double>{options.proofs.reduced_tolerance};
       EXPECT_EQ(shares, asked);
@@ -385,10 +385,9 @@ TEST(ProofSchedule, RemainingPartsAreReportedWithTheProofOfTheirGroup) {
         });
     RunContext context;
     const RunResult r = run(row(4), with(fake::setup(fake::push, separates_pairs), {prover}), {}, context);
-    ASSERT_EQ(r.plan.disassembly.size(), 1U);
-    ASSERT_EQ(r.plan.unsolved.size(), 4U);
+    ASSERT_TRUE(r.plan.disassembly.size() == 1 && r.plan.unsolved.size() == 4);
     for (const PlanUnsolved& u : r.plan.unsolved) {
-      const unsigned id = static_cast<unsigned>(u.part.back() - '0');
+      const auto id = static_cast<unsigned>(u.part.back() - '0');
       EXPECT_EQ(u.outcome, largest_share < 1 ? Outcome::exhausted : Outcome::infeasible);
       EXPECT_EQ(u.message, "claimed");
       EXPECT_EQ(u.blocked_by, std::vector<std::string>{"block" + std::to_string(id ^ 1U)});
