@@ -71,6 +71,25 @@ TEST(Gravity, ABeamTipsAboutTheEdgeOfItsSupport) {
   }
 }
 
+// A beam whose middle is above the edge of its support: rounding decides, and the same way wherever they are moved to.
+TEST(Gravity, WhereItStandsSaysNothing) {
+  Rng rng(9);
+  Scene scene({block(-1, -1, 0, 2, 2, 1), block(-1, -1, 1, 4, 2, 1)});
+  const auto judged = [&](const Scene& s) {
+    StepQuestion question = s.question();
+    question.direction.setZero();
+    return Gravity().judge(question, RunContext{});
+  };
+  const StepVerdict here = judged(scene);
+  for (int k = 0; k < 40; ++k) {
+    Scene there = scene;
+    const Vector3d t(rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(-9, 9));
+    for (PlacedPart& p : there.present) p.pose.t = t;
+    for (PlacedPart& p : there.moving) p.pose.t = t * (1 + 1e-16 * k);
+    EXPECT_EQ(judged(there).cost, here.cost) << k;
+  }
+}
+
 // Law: the picture shows what is held as falling, and the forces on it add up to nothing.
 TEST(Gravity, ThePictureHasTheFallAndTheForces) {
   Rng rng(17);
