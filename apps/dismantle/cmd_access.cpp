@@ -197,17 +197,17 @@ int access(const AccessOptions& options) {
   const Objective objective =
       objective_of(session.config(), session.registry(), up_of(session.config().layout, assembly));
   std::optional<Verifier> verifier;
-  std::optional<Access> ways;
+  std::optional<Access> routes;
   try {
     verifier.emplace(assembly, session.config().verify, looking);
-    ways.emplace(assembly, planned.disassembly, constraints, objective, *verifier, looking);
+    routes.emplace(assembly, planned.disassembly, constraints, objective, *verifier, looking);
   } catch (const Error&) {
     if (!looking.should_stop()) throw;
   }
   std::vector<Answer> answers;
   for (const auto& [name, part] : units) {
     looking.progress("access", answers.size() + 1, units.size(), name);
-    answers.push_back({name, ways ? ways->to(part) : access_as_planned(part, planned.disassembly, constraints)});
+    answers.push_back({name, routes ? routes->to(part) : access_as_planned(part, planned.disassembly, constraints)});
   }
   console.end_progress();
 

@@ -80,14 +80,14 @@ TEST(Pose, TravelBoundsTheWayOfEveryPointInTheBall) {
     const Vec3 center = random_vector(rng, -2, 2);
     const double radius = rng.uniform(0, 2), bound = screw_travel(a, b, center, radius);
     const Vec3 p = center + radius * random_vector(rng, -1, 1).normalized();
-    double way = 0;
+    double distance = 0;
     Vec3 last = a * p;
     for (int k = 1; k <= 200; ++k) {
       const Vec3 next = screw_interpolate(a, b, k / 200.0) * p;
-      way += (next - last).norm();
+      distance += (next - last).norm();
       last = next;
     }
-    EXPECT_LE(way, bound + 1e-12);
+    EXPECT_LE(distance, bound + 1e-12);
     EXPECT_LE((b * center - a * center).norm(), screw_travel(a, b, center, 0) + 1e-12);
   }
 }

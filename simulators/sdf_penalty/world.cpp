@@ -51,16 +51,16 @@ double PenaltyWorld::quasi_static_step(const Action& action) const {
 }
 
 /// Second order: motion of a body from rest under the action alone.
-double PenaltyWorld::way_from_rest(const Action& action, double duration) const {
-  double way = 0;
+double PenaltyWorld::distance_from_rest(const Action& action, double duration) const {
+  double path_length = 0;
   for (std::size_t i = 0; i < bodies().size(); ++i) {
     double acceleration = action.wrenches[i].force.norm() / inertia_[i].mass;
     const double inertia = parameters_.dynamics == Dynamics::acceleration ? 1 : inertia_[i].about_center.trace() / 3;
     if (per_body() == 6) acceleration += action.wrenches[i].torque.norm() * bodies()[i].radius / inertia;
-    way = std::max(way, 0.5 * acceleration * duration * duration);
+    path_length = std::max(path_length, 0.5 * acceleration * duration * duration);
   }
   const double steps = std::max(1.0, duration / parameters_.time_step);
-  return std::min(way, steps * parameters_.max_travel);
+  return std::min(path_length, steps * parameters_.max_travel);
 }
 
 /// Largest motion of any point of a body in a small turn (rotation vector, body axes) about its centre. A long screw
@@ -74,16 +74,16 @@ double PenaltyWorld::reach(std::size_t body, const Eigen::Vector3d& turn) const 
 
 /// Second order: motion in the next `rest` seconds at the speed and acceleration of the last step, which began at
 /// `before`.
-double PenaltyWorld::way_ahead(const State& before, const State& now, double dt, double rest) const {
-  double way = 0;
+double PenaltyWorld::distance_ahead(const State& before, const State& now, double dt, double rest) const {
+  double path_length = 0;
   for (std::size_t i = 0; i < bodies().size(); ++i) {
     const BodyState &was = before.bodies[i], &is = now.bodies[i];
     const double arm = per_body() == 6 ? bodies()[i].radius : 0;
     const double speed = is.velocity.norm() + arm * is.angular_velocity.norm();
     const double gain = (is.velocity - was.velocity).norm() + arm * (is.angular_velocity - was.angular_velocity).norm();
-    way = std::max(way, rest * (speed + 0.5 * gain / dt * rest));
+    path_length = std::max(path_length, rest * (speed + 0.5 * gain / dt * rest));
   }
-  return way;
+  return path_length;
 }
 
 Eigen::Matrix3d PenaltyWorld::inertia_at(std::size_t body, const BodyState& state) const {
@@ -161,12 +161,12 @@ PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, doubl
         turn = dt * s.angular_velocity + gain * a.angular;
       }
     }
-    const double arm_way = fixed_water ? turn.norm() * body.radius : reach(i, s.pose.q.conjugate() * turn);
-    const double way = shift.norm() + arm_way;
-    const double scale = way > parameters_.max_travel ? parameters_.max_travel / way : 1.0;
+    const double arm_travel = fixed_water ? turn.norm() * body.radius : reach(i, s.pose.q.conjugate() * turn);
+    const double path_length = shift.norm() + arm_travel;
+    const double scale = path_length > parameters_.max_travel ? parameters_.max_travel / path_length : 1.0;
     target.template segment<3>(at) = scale * shift;
     if (per_body() == 6) target.template segment<3>(at + 3) = scale * turn;
-    free_travel = std::max(free_travel, scale * way);
+    free_travel = std::max(free_travel, scale * path_length);
   }
   build_rows(state, dt);
   typename Solver::Vector x(n);
@@ -212,7 +212,7 @@ StepReport PenaltyWorld::advance(State& state, const Action& action, double dura
   if (!(wanted <= std::numeric_limits<int>::max())) return not_finite();  // force too large
   const int steps = std::max(1, static_cast<int>(wanted));
   const double dt = duration / steps;
-  const double free = quasi_static ? parameters_.max_travel * duration / natural : way_from_rest(action, duration);
+  const double free = quasi_static ? parameters_.max_travel * duration / natural : distance_from_rest(action, duration);
   const bool may_rest = !quasi_static && parameters_.rest_share > 0;
   State before;
   int idle = 0;
@@ -244,7 +244,8 @@ StepReport PenaltyWorld::advance(State& state, const Action& action, double dura
       report.stalled = true;
       break;
     }
-    if (may_rest && k < steps && way_ahead(before, state, n * dt, duration - k * dt) <= parameters_.rest_share * free)
+    if (may_rest && k < steps &&
+        distance_ahead(before, state, n * dt, duration - k * dt) <= parameters_.rest_share * free)
       break;
   }
   for (std::size_t i = 0; i < bodies().size(); ++i)

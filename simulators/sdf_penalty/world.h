@@ -33,9 +33,9 @@ class PenaltyWorld final : public sdf::BodyWorld {
   Acceleration acceleration(std::size_t body, const BodyState& state, const Action& action) const;
   int steps_at_once(const State& state, const Action& action, double dt, int most) const;
   double quasi_static_step(const Action& action) const;
-  double way_from_rest(const Action& action, double duration) const;
+  double distance_from_rest(const Action& action, double duration) const;
   double reach(std::size_t body, const Eigen::Vector3d& turn) const;
-  double way_ahead(const State& before, const State& now, double dt, double rest) const;
+  double distance_ahead(const State& before, const State& now, double dt, double rest) const;
 
   Parameters parameters_;
   std::vector<Inertia> inertia_;  ///< per body

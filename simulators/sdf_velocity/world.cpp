@@ -44,40 +44,40 @@ VelocityWorld::Vector VelocityWorld::free_motion(const State& state, const Actio
 double VelocityWorld::certain_share(const State& state, const Vector& x) const {
   double share = 1;
   for (const auto& c : touching()) {
-    const double way =
+    const double travel =
         (shift_of<Eigen::Dynamic>(c.owner, c.point, state, x) - shift_of<Eigen::Dynamic>(c.surface, c.point, state, x))
             .norm();
     const double certain = c.certain + blind_travel_;
-    if (way * share > certain) share = certain / way;
+    if (travel * share > certain) share = certain / travel;
   }
   return share;
 }
 
 /// One step from the contacts of the last update, which it updates. No point moves by more than `limit`, and the free
 /// motion is at most `free_way`.
-VelocityWorld::Step VelocityWorld::step(State& state, const Action& action, double free_way, double limit) {
+VelocityWorld::Step VelocityWorld::step(State& state, const Action& action, double free_travel, double limit) {
   const Vector motion = free_motion(state, action);
   const double speed = travel_of<Eigen::Dynamic>(motion);
   Vector x(dof());
-  const auto try_way = [&](double way) {
-    projection_.project(rows(), per_body(), radii_, way / speed * motion, x);
+  const auto try_travel = [&](double travel) {
+    projection_.project(rows(), per_body(), radii_, travel / speed * motion, x);
     return travel_of<Eigen::Dynamic>(x);
   };
   build_rows(state, 0);
   // Contact may reduce the motion so much that all of it fits into one step.
   Step done;
-  done.free = free_way;
-  done.way = try_way(done.free);
-  if (done.way < geometry::kRounding * done.free) return {done.free, 0};
-  if (done.way > limit && done.free > limit) {
-    done.free = std::max(limit, done.free * limit / done.way);
-    done.way = try_way(done.free);
+  done.free = free_travel;
+  done.travel = try_travel(done.free);
+  if (done.travel < geometry::kRounding * done.free) return {done.free, 0};
+  if (done.travel > limit && done.free > limit) {
+    done.free = std::max(limit, done.free * limit / done.travel);
+    done.travel = try_travel(done.free);
   }
   // A shorter step along x penetrates no more than x does.
-  const double share = std::min(done.way > limit ? limit / done.way : 1.0, certain_share(state, x));
+  const double share = std::min(done.travel > limit ? limit / done.travel : 1.0, certain_share(state, x));
   x *= share;
   done.free *= share;
-  done.way = displace<Eigen::Dynamic>(state, x);
+  done.travel = displace<Eigen::Dynamic>(state, x);
   update_contacts(state);
   return done;
 }
@@ -104,19 +104,19 @@ StepReport VelocityWorld::advance(State& state, const Action& action, double dur
     const double allowed = std::max(contact_depth(), deepest());
     const Step done = step(state, action, left, limit);
     ++report.steps;
-    if (!std::isfinite(done.way) || !is_finite(state)) {
+    if (!std::isfinite(done.travel) || !is_finite(state)) {
       state = begin_state;
       if (trace != nullptr) trace->resize(begin_trace);
       return not_finite();
     }
-    report.stalled = done.way == 0;
+    report.stalled = done.travel == 0;
     if (report.stalled) break;
     settle<Eigen::Dynamic>(state, contact_depth());
     // A step that penetrates and cannot be corrected in place is undone and halved.
     if (deepest() > allowed) {
       state = before;
       update_contacts(state);
-      limit = 0.5 * std::min(limit, done.way);
+      limit = 0.5 * std::min(limit, done.travel);
       report.stalled = limit < contact_depth();
       if (report.stalled) break;
       continue;

@@ -20,12 +20,12 @@ class VelocityWorld final : public sdf::BodyWorld {
  private:
   using Vector = ContactProjection::Vector;
   struct Step {
-    double free = 0;  ///< motion under the action alone
-    double way = 0;   ///< bound of the motion of any point
+    double free = 0;    ///< motion under the action alone
+    double travel = 0;  ///< bound of the motion of any point
   };
 
   Vector free_motion(const State& state, const Action& action) const;
-  Step step(State& state, const Action& action, double free_way, double limit);
+  Step step(State& state, const Action& action, double free_travel, double limit);
   double certain_share(const State& state, const Vector& x) const;
 
   Parameters parameters_;

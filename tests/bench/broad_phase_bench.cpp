@@ -36,9 +36,9 @@ void BroadPhase_HullsApart(benchmark::State& state) {
   std::vector<geometry::PlacedHull> rest = layout.all;
   const geometry::PlacedHull moving = rest[rest.size() / 2];
   rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(rest.size() / 2));
-  const Vec3 way = Vec3(0.1, 0.2, 1).normalized();
+  const Vec3 displacement = Vec3(0.1, 0.2, 1).normalized();
   double distance = 0;
-  for (auto _ : state) distance += geometry::HullsApart({moving}, rest).distance(way, 5, 12);
+  for (auto _ : state) distance += geometry::HullsApart({moving}, rest).distance(displacement, 5, 12);
   benchmark::DoNotOptimize(distance);
   state.SetComplexityN(state.range(0));
 }

@@ -15,14 +15,14 @@ using dismantle::PathQuery;
 using dismantle::PathResult;
 using dismantle::RunContext;
 
-struct NoParams {
-  static void describe(dismantle::Schema<NoParams>&) {}
+struct NoParameters {
+  static void describe(dismantle::Schema<NoParameters>&) {}
 };
 
 template <PathResult (*kDo)()>
 class Planner final : public dismantle::FunctionPathPlanner {
  public:
-  explicit Planner(const NoParams&) {}
+  explicit Planner(const NoParameters&) {}
   dismantle::PathPlannerTraits traits() const noexcept override { return {}; }
   PathResult plan(const PathQuery&, RunContext&) override { return kDo(); }
 };
@@ -89,20 +89,20 @@ PathResult lie() {
 }  // namespace
 
 DISMANTLE_PLUGIN("evil.planners", "1.0.0", "MIT", "https://example.org/evil") {
-  r.add<dismantle::PathPlanner, Planner<give_up>, NoParams>("evil.none", "Gives up at once.",
-                                                            {.source = "none", .needs = {}});
-  r.add<dismantle::PathPlanner, Planner<abort_at_once>, NoParams>("evil.abort", "Aborts.",
-                                                                  {.source = "none", .needs = {}});
-  r.add<dismantle::PathPlanner, Planner<spin>, NoParams>("evil.spin", "Computes for ever.",
-                                                         {.source = "none", .needs = {}});
-  r.add<dismantle::PathPlanner, Planner<sleep_for_ever>, NoParams>("evil.sleep", "Waits for ever.",
-                                                                   {.source = "none", .needs = {}});
-  r.add<dismantle::PathPlanner, Planner<eat_memory>, NoParams>("evil.memory", "Eats memory.",
-                                                               {.source = "none", .needs = {}});
-  r.add<dismantle::PathPlanner, Planner<scribble>, NoParams>("evil.scribble", "Overwrites memory.",
+  r.add<dismantle::PathPlanner, Planner<give_up>, NoParameters>("evil.none", "Gives up at once.",
+                                                                {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<abort_at_once>, NoParameters>("evil.abort", "Aborts.",
+                                                                      {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<spin>, NoParameters>("evil.spin", "Computes for ever.",
                                                              {.source = "none", .needs = {}});
-  r.add<dismantle::PathPlanner, Planner<leave_a_daemon>, NoParams>("evil.daemon", "Leaves a process behind.",
+  r.add<dismantle::PathPlanner, Planner<sleep_for_ever>, NoParameters>("evil.sleep", "Waits for ever.",
+                                                                       {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<eat_memory>, NoParameters>("evil.memory", "Eats memory.",
                                                                    {.source = "none", .needs = {}});
-  r.add<dismantle::PathPlanner, Planner<lie>, NoParams>("evil.lie", "Claims to be done.",
-                                                        {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<scribble>, NoParameters>("evil.scribble", "Overwrites memory.",
+                                                                 {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<leave_a_daemon>, NoParameters>("evil.daemon", "Leaves a process behind.",
+                                                                       {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<lie>, NoParameters>("evil.lie", "Claims to be done.",
+                                                            {.source = "none", .needs = {}});
 }

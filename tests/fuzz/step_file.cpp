@@ -7,7 +7,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace dismantle;
   const auto file = fuzz::input_file("part.step", {data, size});
-  step_import::StepParams params;
+  step_import::StepParameters params;
   params.time_limit = 5;
   params.triangle_limit = 100'000;
   step_import::StepImporter importer(params, STEP_READER);

@@ -19,36 +19,38 @@ std::string file_name() {
 class Nothing : public dismantle::Importer {
  public:
   std::vector<std::string> extensions() const override { return {}; }
-  std::vector<dismantle::RawPart> read(const std::filesystem::path&, const dismantle::RunContext&) override { return {}; }
+  std::vector<dismantle::RawPart> read(const std::filesystem::path&, const dismantle::RunContext&) override {
+    return {};
+  }
 };
 
 enum class Flavour { sweet, sour };
 
-struct Params {
+struct Parameters {
   double size = 1.0;
   Flavour flavour = Flavour::sour;
 
-  static void describe(dismantle::Schema<Params>& s) {
+  static void describe(dismantle::Schema<Parameters>& s) {
     const std::string fault = file_name();
     if (fault == "empty_doc")
-      s.add("size", &Params::size, {.unit = "1", .doc = ""});
+      s.add("size", &Parameters::size, {.unit = "1", .doc = ""});
     else if (fault == "no_unit")
-      s.add("size", &Params::size, {.unit = "", .doc = "Size."});
+      s.add("size", &Parameters::size, {.unit = "", .doc = "Size."});
     else if (fault == "default_outside")
-      s.add("size", &Params::size, {.unit = "s", .min = 2, .max = 3, .doc = "Size."});
+      s.add("size", &Parameters::size, {.unit = "s", .min = 2, .max = 3, .doc = "Size."});
     else if (fault == "default_no_choice")
-      s.add_choice<Flavour>("flavour", &Params::flavour, {{"sweet", Flavour::sweet, "Sugar."}}, "Taste.");
+      s.add_choice<Flavour>("flavour", &Parameters::flavour, {{"sweet", Flavour::sweet, "Sugar."}}, "Taste.");
     else if (fault == "bad_name")
-      s.add("Size", &Params::size, {.unit = "1", .doc = "Size."});
+      s.add("Size", &Parameters::size, {.unit = "1", .doc = "Size."});
     else if (fault == "reserved_name")
-      s.add("type", &Params::size, {.unit = "1", .doc = "Size."});
+      s.add("type", &Parameters::size, {.unit = "1", .doc = "Size."});
     else
-      s.add("size", &Params::size, {.unit = "1", .doc = "Size."});
+      s.add("size", &Parameters::size, {.unit = "1", .doc = "Size."});
   }
 };
 
 void add(dismantle::Registrar& r, const std::string& id, const std::string& summary = "Reads nothing.") {
-  r.add<dismantle::Importer, Nothing, Params>(id, summary);
+  r.add<dismantle::Importer, Nothing, Parameters>(id, summary);
 }
 
 }  // namespace

@@ -35,8 +35,9 @@ bool connected(const Cells& cells) {
   while (!pending.empty()) {
     const Cell at = pending.back();
     pending.pop_back();
-    for (const Cell& way : kWays)
-      if (const Cell next = plus(at, way); cells.contains(next) && seen.insert(next).second) pending.push_back(next);
+    for (const Cell& displacement : kWays)
+      if (const Cell next = plus(at, displacement); cells.contains(next) && seen.insert(next).second)
+        pending.push_back(next);
   }
   return seen.size() == cells.size();
 }
@@ -53,8 +54,8 @@ bool leaves(const Cells& part, const Cells& other, int size) {
     const Cell at = pending.front();
     pending.pop();
     if (std::any_of(at.begin(), at.end(), [&](int x) { return std::abs(x) >= size; })) return true;
-    for (const Cell& way : kWays)
-      if (const Cell next = plus(at, way); !seen.contains(next) && free_at(next)) {
+    for (const Cell& displacement : kWays)
+      if (const Cell next = plus(at, displacement); !seen.contains(next) && free_at(next)) {
         seen.insert(next);
         pending.push(next);
       }

@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "dismantle/plan_io/plan_file.h"
 #include "dismantle/errors.h"
+#include "dismantle/plan_io/plan_file.h"
 #include "dismantle/testing/shapes.h"
 #include "dismantle/verification/check_plan.h"
 
@@ -27,12 +27,12 @@ class WrongPlans : public testing::Test {
     plan_.remaining = {"part1"};
     plan_.disassembly = {along({0, 0, 4})};
   }
-  PlanStep along(const Vec3& way) const {
+  PlanStep along(const Vec3& displacement) const {
     PlanStep step;
     step.step = 1;
     step.moves.push_back({"part0", {}});
-    const int n = static_cast<int>(std::ceil(way.norm() / 0.09));
-    for (int i = 0; i <= n; ++i) step.moves[0].poses.push_back(shapes::shift(way * i / n));
+    const int n = static_cast<int>(std::ceil(displacement.norm() / 0.09));
+    for (int i = 0; i <= n; ++i) step.moves[0].poses.push_back(shapes::shift(displacement * i / n));
     step.separates = {{"part0"}};
     return step;
   }
@@ -56,7 +56,10 @@ TEST_F(WrongPlans, EachIsRefusedWithItsReason) {
   const std::vector<std::pair<const char*, std::function<void()>>> wrong = {
       {"from where it is", [&] { poses().front().t.x() += 0.02; }},
       {"travels more than 1 %", [&] { poses().erase(poses().begin() + 10, poses().begin() + 20); }},
-      {"penetrates 'part1'", [&] { plan_.disassembly = {along({4, 0, 0})}; }},  // no pose lies in the wall
+      {"penetrates 'part1'",
+       [&] {
+         plan_.disassembly = {along({4, 0, 0})};
+       }},  // no pose lies in the wall
       {"is not out", [&] { poses().resize(12); }},
       {"two moves", [&] { plan_.disassembly[0].moves.push_back(plan_.disassembly[0].moves[0]); }},
       {"listed twice", [&] { plan_.assembly.parts.push_back(plan_.assembly.parts[0]); }},

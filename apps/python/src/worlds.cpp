@@ -103,8 +103,8 @@ Array HeldWorlds::displacements() {
   for (One& one : worlds_)
     for (std::size_t i = 0; i < bodies_; ++i) {
       const Eigen::Vector3d center = one.world->center(i);
-      const Eigen::Vector3d way = one.state.bodies[i].pose * center - center;
-      to = std::copy_n(way.data(), 3, to);
+      const Eigen::Vector3d displacement = one.state.bodies[i].pose * center - center;
+      to = std::copy_n(displacement.data(), 3, to);
     }
   return out;
 }

@@ -73,7 +73,7 @@ struct ExcludedPart {
 };
 
 /// Importer parameters that differ from their defaults, by importer. Other values give other surfaces.
-using ImportParams = std::map<std::string, ParamSet>;
+using ImportParameters = std::map<std::string, ParamSet>;
 
 /// Two parts that penetrate each other when assembled (usual in CAD). depth: assembly units, > 0.
 struct InitialOverlap {
@@ -98,12 +98,12 @@ struct Assembly {
   std::string sha256;  ///< of the input files' bytes, in name order
   Normalization normalization;
   SurfaceRepair repair;
-  ImportParams import_params;
+  ImportParameters import_params;
   std::string unit;  ///< input unit ("mm", "inch", "m") if the files say so and agree; else empty
   Aabb input_box;    ///< of all parts kept, input units
   std::vector<Part> parts;
   std::vector<ExcludedPart> excluded;
-  std::vector<InitialOverlap> overlaps;  ///< sorted by (a, b); measured on the original triangles
+  std::vector<InitialOverlap> overlaps;          ///< sorted by (a, b); measured on the original triangles
   std::vector<ReferenceStep> reference_order{};  ///< how its author builds it, if the file says so; ids of parts
 
   /// InitialOverlap::allowed() of the pair; 0 if it has no entry.

@@ -194,7 +194,7 @@ struct PlanAssembly {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< input units; internal = scale * (x - center)
   Aabb box;                                          ///< input units
   SurfaceRepair repair;
-  ImportParams import_params;
+  ImportParameters import_params;
   std::string unit;  ///< input unit; empty when the files do not say
   std::vector<PlanPart> parts;
   std::vector<PlanExcluded> excluded;

@@ -75,13 +75,13 @@ std::optional<Fit> too_large(const Mesh& round, const Pose& pose, const Mesh& ar
 }
 
 /// One slide without a turn, whatever the number of poses.
-bool is_one_slide(const std::vector<Pose>& way) {
+bool is_one_slide(const std::vector<Pose>& path) {
   constexpr double kOnLine = 1e-6;  // of the travel, and radians
-  const Vec3 travel = way.back().t - way.front().t, along = travel.normalized();
-  return std::all_of(way.begin(), way.end(), [&](const Pose& pose) {
-    const Vec3 gone = pose.t - way.front().t;
+  const Vec3 travel = path.back().t - path.front().t, along = travel.normalized();
+  return std::all_of(path.begin(), path.end(), [&](const Pose& pose) {
+    const Vec3 gone = pose.t - path.front().t;
     return (gone - along.dot(gone) * along).norm() <= kOnLine * travel.norm() &&
-           angle_between(pose.q, way.front().q) <= kOnLine;
+           angle_between(pose.q, path.front().q) <= kOnLine;
   });
 }
 
@@ -99,25 +99,25 @@ std::string at_least(double x) {
 
 }  // namespace
 
-std::string hindrance_text(const Assembly& assembly, const MotionDepth& deepest, const std::vector<Pose>& way,
+std::string hindrance_text(const Assembly& assembly, const MotionDepth& deepest, const std::vector<Pose>& path,
                            const PlacedPart& other, double tolerance) {
   const Part &moves = assembly.parts[deepest.part], &stays = assembly.parts[deepest.other];
   const double to_input = 1 / assembly.normalization.scale;
-  const Vec3 travel = way.back().t - way.front().t;
+  const Vec3 travel = path.back().t - path.front().t;
   const double excess = deepest.excess() * to_input;
   if (kind_of(assembly, deepest, tolerance) == Kind::pressed)
     return fmt::format("pressed: '{}' and '{}' are in each other by {:.2g} when assembled, and by {:.2g} on the way",
                        moves.name, stays.name, assembly.overlap_of(deepest.part, deepest.other)->depth * to_input,
                        deepest.depth * to_input);
-  if (travel.norm() > tolerance && is_one_slide(way)) {
+  if (travel.norm() > tolerance && is_one_slide(path)) {
     const Vec3 along = travel.normalized();
     const auto says = [&](const Fit& fit, const Part& round, const Part& eye) {
       return fmt::format("'{}', of radius {:.3g} about the way out, does not pass the opening of radius {:.3g} of '{}'",
                          round.name, fit.radius * to_input, fit.opening * to_input, eye.name);
     };
-    if (const auto fit = too_large(*moves.mesh, way.front(), *stays.mesh, other.pose, along))
+    if (const auto fit = too_large(*moves.mesh, path.front(), *stays.mesh, other.pose, along))
       return says(*fit, moves, stays);
-    if (const auto fit = too_large(*stays.mesh, other.pose, *moves.mesh, way.front(), along))
+    if (const auto fit = too_large(*stays.mesh, other.pose, *moves.mesh, path.front(), along))
       return says(*fit, stays, moves);
   }
   if (kind_of(assembly, deepest, tolerance) == Kind::snap)

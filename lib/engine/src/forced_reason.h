@@ -12,7 +12,7 @@ namespace dismantle {
 
 /// One sentence without its full stop: a press fit, a snap, a round part that is too large for an opening, or how much
 /// material is in the way. Input units. `way`: of the part `deepest.part`.
-std::string hindrance_text(const Assembly& assembly, const MotionDepth& deepest, const std::vector<Pose>& way,
+std::string hindrance_text(const Assembly& assembly, const MotionDepth& deepest, const std::vector<Pose>& path,
                            const PlacedPart& other, double tolerance);
 
 /// The line of a configuration with which the step would be allowed or accepted, if one makes sense; else empty.

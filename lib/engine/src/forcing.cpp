@@ -72,11 +72,11 @@ std::string Forcing::reason_for(const Attempt& attempt, const ForcedRemoval& rem
   };
   const auto part = at(attempt.moving, deepest.part), other = at(attempt.fixed, deepest.other);
   if (deepest.depth > 0 && part != attempt.moving.end() && other != attempt.fixed.end()) {
-    std::vector<Pose> way;
+    std::vector<Pose> motion;
     const auto column = static_cast<std::size_t>(part - attempt.moving.begin());
-    for (const auto& instant : removal.path) way.push_back(instant[column]);
+    for (const auto& instant : removal.path) motion.push_back(instant[column]);
     if (!text.empty()) text += "; ";
-    text += hindrance_text(assembly_, deepest, way, *other, tolerance);
+    text += hindrance_text(assembly_, deepest, motion, *other, tolerance);
   }
   // Time may have gone into either part of the pair.
   std::vector<PartId> searched = ids_of(attempt.moving);

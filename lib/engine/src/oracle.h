@@ -43,7 +43,7 @@ class Oracle final : public PathOracle {
 
   const AttemptResult& attempt(const Attempt& attempt, RunContext& context) override;
   void prefetch(std::span<const Attempt> attempts, RunContext& context) override;
-  const AttemptResult& propose(const Attempt& attempt, const Path& way, RunContext& context) override;
+  const AttemptResult& propose(const Attempt& attempt, const Path& path, RunContext& context) override;
   OracleCounts counts() const override;
   const Certificate* prove(const SeparationQuestion& question, const RunContext& context) override {
     return proofs_.prove(question, context);
@@ -94,7 +94,7 @@ class Oracle final : public PathOracle {
   AttemptRunner runner_;
   ProofSchedule proofs_;
   std::unique_ptr<Forcing> forcing_;  ///< null: no step is forced
-  std::mutex ask_mutex_;  ///< one question at a time
+  std::mutex ask_mutex_;              ///< one question at a time
   std::deque<AttemptResult> results_;
   std::map<AttemptKey, const AttemptResult*> answers_;
   std::map<SceneDigest, Final> finals_;

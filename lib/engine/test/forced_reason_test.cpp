@@ -20,9 +20,9 @@ struct Said {
 };
 
 /// Part 0 moves up past part 1.
-Said said(const Assembly& assembly, double depth, const std::vector<Pose>& way = kUp) {
+Said said(const Assembly& assembly, double depth, const std::vector<Pose>& path = kUp) {
   const MotionDepth deepest{0, 1, depth, assembly.initial_overlap(0, 1)};
-  return {hindrance_text(assembly, deepest, way, {1, Pose{}}, kTolerance),
+  return {hindrance_text(assembly, deepest, path, {1, Pose{}}, kTolerance),
           suggestion_text(assembly, deepest, kTolerance)};
 }
 
@@ -70,9 +70,9 @@ TEST(ForcedReason, ARoundPartIsComparedWithTheOpening) {
   for (const double hole : {0.6, 0.8}) {
     Assembly assembly = shapes::assembly_of({rod, shapes::tube(hole, 2, -1, 1, 32)});
     const std::vector<Pose> down{Pose{}, shapes::shift({0, 0, -20})};
-    EXPECT_EQ(said(assembly, 1 - hole, down).what,
-              fmt::format("'part0', of radius 1 about the way out, does not pass the opening of radius {} of 'part1'",
-                          hole));
+    EXPECT_EQ(
+        said(assembly, 1 - hole, down).what,
+        fmt::format("'part0', of radius 1 about the way out, does not pass the opening of radius {} of 'part1'", hole));
     const std::vector<Pose> sideways{Pose{}, shapes::shift({20, 0, 0})};
     EXPECT_EQ(said(assembly, 1 - hole, sideways).what.find("radius"), std::string::npos);
     assembly.parts[1].mesh = std::make_shared<const Mesh>(shapes::tube(1.1, 2, -1, 1, 32));  // it passes

@@ -20,9 +20,9 @@ Aabb random_box(Rng& rng, double most) {
   return box;
 }
 
-Aabb shifted(Aabb box, const Vector3d& way) {
-  box.lo += way;
-  box.hi += way;
+Aabb shifted(Aabb box, const Vector3d& displacement) {
+  box.lo += displacement;
+  box.hi += displacement;
   return box;
 }
 

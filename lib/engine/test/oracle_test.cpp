@@ -314,8 +314,8 @@ TEST(Oracle, PlannersThatMoveGroupsOnlyAreNotAskedForMore) {
 
 TEST(Oracle, ChecksProposedPaths) {
   Rig s(fake::tube_with_blocks(2), fake::setup(fake::push));
-  const auto up = [](const Attempt& a, double way) {
-    return fake::straight({a.moving, a.fixed}, Eigen::Vector3d(0, 0, way));
+  const auto up = [](const Attempt& a, double distance) {
+    return fake::straight({a.moving, a.fixed}, Eigen::Vector3d(0, 0, distance));
   };
   const Attempt top = leave(s.assembly, 2), low = leave(s.assembly, 1);
   const AttemptResult& out = s.oracle->propose(top, up(top, 3), s.context);

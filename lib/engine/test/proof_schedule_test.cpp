@@ -71,9 +71,9 @@ TEST(ProofSchedule, LocksOfOverlapsEndEveryAttemptAndProposal) {
     EXPECT_TRUE(r.certificate->full_tolerance);
     EXPECT_EQ(r.certificate->margin, s.options.verify.max_penetration);
   }
-  const Attempt way = leave(s.assembly, 0);
+  const Attempt path = leave(s.assembly, 0);
   const AttemptResult& proposed =
-      s.oracle->propose(way, {{Pose{}}, {Pose{{0, 0, 9}, Eigen::Quaterniond::Identity()}}}, s.context);
+      s.oracle->propose(path, {{Pose{}}, {Pose{{0, 0, 9}, Eigen::Quaterniond::Identity()}}}, s.context);
   EXPECT_EQ(proposed.result.outcome(), Outcome::infeasible);
   EXPECT_EQ(searches, 0);
   s.ask(leave(s.assembly, 2));

@@ -118,10 +118,10 @@ TEST(Run, OneLeavesAndTheOtherStaysWhereItWasMoved) {
       both.moving = {{1, Pose{}}, {2, Pose{}}};
       both.fixed = {{0, Pose{}}};
       both.goal.any_of = {1, 2};
-      Path way = fake::straight({both.moving, both.fixed}, {0, 0, 30});
-      way[1][0].t.z() = 0.5;
+      Path motion = fake::straight({both.moving, both.fixed}, {0, 0, 30});
+      motion[1][0].t.z() = 0.5;
       RunContext c;
-      const AttemptResult& r = oracle.propose(both, way, c);
+      const AttemptResult& r = oracle.propose(both, motion, c);
       result.removals.push_back({{1, 2}, &r});
       observer.removed(result.removals.back(), 2);
       Attempt last;
@@ -168,8 +168,8 @@ RunResult in_bits(const std::vector<PartId>& order) {
       a.moving = {{part, at[part]}};
       for (const auto& p : assembly.parts)
         if (p.id != part && !gone[p.id]) a.fixed.push_back({p.id, at[p.id]});
-      const Path way = fake::straight({a.moving, a.fixed}, {0, 0, last ? 30 : 0.25});
-      const AttemptResult& r = oracle.propose(a, way, c);
+      const Path motion = fake::straight({a.moving, a.fixed}, {0, 0, last ? 30 : 0.25});
+      const AttemptResult& r = oracle.propose(a, motion, c);
       at[part] = r.result.path()->poses().back()[0];
       gone[part] = last;
       result.removals.push_back({{part}, &r});

@@ -5,8 +5,8 @@
 #include <map>
 #include <numbers>
 
-#include "dismantle/geometry/directed_check.h"
 #include "dismantle/executor.h"
+#include "dismantle/geometry/directed_check.h"
 #include "dismantle/testing/shapes.h"
 #include "dismantle/testing/trials.h"
 
@@ -26,13 +26,13 @@ struct Outcome {
   Budget budget;
 };
 
-Outcome check(const Solid& a, const Solid& b, const std::vector<Pose>& way, const Limits& limits, Budget budget,
+Outcome check(const Solid& a, const Solid& b, const std::vector<Pose>& path, const Limits& limits, Budget budget,
               unsigned threads) {
   RunContext context;
   if (threads > 1) context.executor = std::make_shared<Executor>(threads);
   budget.context = &context;
   std::vector<Pose> poses;
-  for (const Pose& p : way) poses.push_back(p * a.frame);
+  for (const Pose& p : path) poses.push_back(p * a.frame);
   const RelativeMotion motion(poses, {b.frame}, grown(a.box, limits.most()));
   DirectedCheck directed(a, b, motion, limits, budget);
   Outcome o;
@@ -54,19 +54,19 @@ TEST(DirectedShare, NobodyCanTellHowManyThreadsThereWere) {
     Mesh peg = shapes::tube(0.3, radius, -1, 1, 40, 6);
     for (auto& v : peg.vertices) v += rough * shapes::random_vector(rng, -1, 1);
     const Solid a(peg), b(shapes::tube(1, 1.4, -1.2, 1.2, 56, 3, rng.uniform(0, 1)));
-    std::vector<Pose> way{Pose{}};
+    std::vector<Pose> path{Pose{}};
     const int kind = trial % 3;
     const int instants = kind == 0 ? 1 : kind == 1 ? 3 : 12;
     for (int k = 1; k <= instants; ++k) {
       const double share = static_cast<double>(k) / instants;
       const double angle = kind == 0 ? 0 : (kind == 1 ? 0.5 : 6 * std::numbers::pi) * share;
-      way.push_back({Vec3(0, 0, share), Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vec3::UnitZ()))});
+      path.push_back({Vec3(0, 0, share), Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vec3::UnitZ()))});
     }
     const Limits limits{0, 0.01};
     Budget all;
     all.tests_left = 200'000;
     all.patches_left = 20'000;
-    const Outcome whole = check(a, b, way, limits, all, 1);
+    const Outcome whole = check(a, b, path, limits, all, 1);
     for (const double share : {1.0, rng.uniform()}) {
       Budget budget = all;
       if (share < 1) {
@@ -74,10 +74,10 @@ TEST(DirectedShare, NobodyCanTellHowManyThreadsThereWere) {
         budget.patches_left =
             static_cast<std::uint64_t>(share * static_cast<double>(all.patches_left - whole.budget.patches_left));
       }
-      const Outcome alone = check(a, b, way, limits, budget, 1);
+      const Outcome alone = check(a, b, path, limits, budget, 1);
       ++seen[alone.finding.answer];
       for (const unsigned threads : {2U, 4U}) {
-        const Outcome helped = check(a, b, way, limits, budget, threads);
+        const Outcome helped = check(a, b, path, limits, budget, threads);
         ASSERT_EQ(helped.finding.answer, alone.finding.answer) << trial;
         EXPECT_EQ(helped.finding.point, alone.finding.point) << trial;
         EXPECT_EQ(helped.finding.depth, alone.finding.depth) << trial;

@@ -44,9 +44,9 @@ PlanStep step_of(unsigned number, std::vector<PlanMove> moves) {
   return s;
 }
 
-std::vector<Pose> straight(const Eigen::Vector3d& way, std::size_t n) {
+std::vector<Pose> straight(const Eigen::Vector3d& displacement, std::size_t n) {
   std::vector<Pose> out(n);
-  for (std::size_t i = 0; i < n; ++i) out[i].t = way * (double(i) / double(n - 1));
+  for (std::size_t i = 0; i < n; ++i) out[i].t = displacement * (double(i) / double(n - 1));
   return out;
 }
 

@@ -31,8 +31,8 @@ Mesh random_coil(Rng& rng) {
   std::vector<Vec3> line =
       coil_line(radius, last, wire * rng.uniform(1.1, 3), rng.uniform(2.4, 8), static_cast<int>(16 + rng.below(24)));
   if (rng.below(3) == 0) {  // the legs of a torsion spring
-    const Vec3 end = line.back(), way = (line.back() - line[line.size() - 2]).normalized();
-    for (int k = 1; k <= 4; ++k) line.push_back(end + k * 1.5 * way);
+    const Vec3 end = line.back(), displacement = (line.back() - line[line.size() - 2]).normalized();
+    for (int k = 1; k <= 4; ++k) line.push_back(end + k * 1.5 * displacement);
   }
   return sweep(line, polygon(wire / 2, static_cast<int>(10 + rng.below(14)), rng.uniform(0, pi)), false);
 }

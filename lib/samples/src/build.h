@@ -24,9 +24,9 @@ struct SampleFacts {
   bool clean = true;
 };
 
-template <class Params>
-Maker maker(std::string name, std::string summary, Model (*build)(const Params&), SampleFacts facts = {}) {
-  const Schema<Params> schema;
+template <class Parameters>
+Maker maker(std::string name, std::string summary, Model (*build)(const Parameters&), SampleFacts facts = {}) {
+  const Schema<Parameters> schema;
   Maker m;
   m.sample = {std::move(name), std::move(summary),     schema.specs(),     facts.solvable,
               facts.clean,     facts.translation_only, facts.one_at_a_time};
@@ -50,21 +50,21 @@ std::vector<Maker> doubled_makers();   // doubled.cpp: two solids that fill the 
 std::string add_part(Model& model, std::string name, Mesh mesh);
 
 /// A straight slide of one part; `out`: the part is then separated.
-TruthStep slide(const std::string& part, const Point& way, bool out);
+TruthStep slide(const std::string& part, const Point& displacement, bool out);
 
 /// The translation of slide() as a screw.
 Screw along(const Point& travel);
 
 /// Adds `clearance` with the doc that all samples share.
-template <class Params>
-void add_clearance(Schema<Params>& s, double min, double max) {
-  s.add("clearance", &Params::clearance,
+template <class Parameters>
+void add_clearance(Schema<Parameters>& s, double min, double max) {
+  s.add("clearance", &Parameters::clearance,
         {.unit = "mm", .min = min, .max = max, .doc = "Smallest distance between any two parts when assembled."});
 }
 
-template <class Params>
-void add_segments(Schema<Params>& s) {
-  s.add("segments", &Params::segments,
+template <class Parameters>
+void add_segments(Schema<Parameters>& s) {
+  s.add("segments", &Parameters::segments,
         {.unit = "1", .min = 8, .max = 512, .doc = "Number of flat faces per full turn of a round surface."});
 }
 

@@ -7,17 +7,18 @@
 namespace dismantle::samples {
 namespace {
 
-struct TwiceParams {
+struct TwiceParameters {
   double length = 30, width = 20, thickness = 4, clearance = 0.1;
-  static void describe(Schema<TwiceParams>& s) {
-    s.add("length", &TwiceParams::length, {.unit = "mm", .min = 10, .max = 300, .doc = "Length of the plate."});
-    s.add("width", &TwiceParams::width, {.unit = "mm", .min = 10, .max = 300, .doc = "Width of the plate."});
-    s.add("thickness", &TwiceParams::thickness, {.unit = "mm", .min = 1, .max = 30, .doc = "Thickness of the plate."});
+  static void describe(Schema<TwiceParameters>& s) {
+    s.add("length", &TwiceParameters::length, {.unit = "mm", .min = 10, .max = 300, .doc = "Length of the plate."});
+    s.add("width", &TwiceParameters::width, {.unit = "mm", .min = 10, .max = 300, .doc = "Width of the plate."});
+    s.add("thickness", &TwiceParameters::thickness,
+          {.unit = "mm", .min = 1, .max = 30, .doc = "Thickness of the plate."});
     add_clearance(s, 0.001, 0.5);
   }
 };
 
-Model same_plate_twice(const TwiceParams& p) {
+Model same_plate_twice(const TwiceParameters& p) {
   Model model;
   model.clearance = p.clearance;
   const double x = p.length / 2, y = p.width / 2, t = p.thickness, c = p.clearance;
@@ -32,13 +33,13 @@ Model same_plate_twice(const TwiceParams& p) {
   return model;
 }
 
-struct InSolidParams {
+struct InSolidParameters {
   double size = 40, insert = 8, offset = 0;
-  static void describe(Schema<InSolidParams>& s) {
-    s.add("size", &InSolidParams::size, {.unit = "mm", .min = 10, .max = 400, .doc = "Longest edge of the block."});
-    s.add("insert", &InSolidParams::insert,
+  static void describe(Schema<InSolidParameters>& s) {
+    s.add("size", &InSolidParameters::size, {.unit = "mm", .min = 10, .max = 400, .doc = "Longest edge of the block."});
+    s.add("insert", &InSolidParameters::insert,
           {.unit = "mm", .min = 1, .max = 100, .doc = "Edge of the cube in the block; at most a third of `size`."});
-    s.add("offset", &InSolidParams::offset,
+    s.add("offset", &InSolidParameters::offset,
           {.unit = "mm",
            .min = 0,
            .max = 200,
@@ -46,7 +47,7 @@ struct InSolidParams {
   }
 };
 
-Model part_in_solid(const InSolidParams& p) {
+Model part_in_solid(const InSolidParameters& p) {
   const double half = p.size / 2, low = 0.3 * p.size, edge = p.insert / 2;
   if (p.insert > p.size / 3) throw std::invalid_argument("part_in_solid: insert is more than a third of size");
   if (p.offset + edge > 0.9 * half) throw std::invalid_argument("part_in_solid: the insert is not in the block");
@@ -63,10 +64,10 @@ Model part_in_solid(const InSolidParams& p) {
 
 std::vector<Maker> doubled_makers() {
   const SampleFacts stays{.solvable = false, .clean = false};
-  return {maker<TwiceParams>("same_plate_twice", "A plate on a base, and the same plate again in its place.",
-                             &same_plate_twice, stays),
-          maker<InSolidParams>("part_in_solid", "A cube inside the solid of a block that has no cavity for it.",
-                               &part_in_solid, stays)};
+  return {maker<TwiceParameters>("same_plate_twice", "A plate on a base, and the same plate again in its place.",
+                                 &same_plate_twice, stays),
+          maker<InSolidParameters>("part_in_solid", "A cube inside the solid of a block that has no cavity for it.",
+                                   &part_in_solid, stays)};
 }
 
 }  // namespace dismantle::samples

@@ -9,24 +9,24 @@ namespace {
 
 enum class PegShape { round, square };
 
-struct PegParams {
+struct PegParameters {
   PegShape shape = PegShape::round;
   double size = 20, length = 40, clearance = 0.1;
   bool blind = true;
   int segments = 64;
-  static void describe(Schema<PegParams>& s) {
-    s.add_choice("shape", &PegParams::shape,
+  static void describe(Schema<PegParameters>& s) {
+    s.add_choice("shape", &PegParameters::shape,
                  {{"round", PegShape::round, "cylinder"}, {"square", PegShape::square, "square prism"}},
                  "Cross-section of peg and hole.");
-    s.add("size", &PegParams::size, {.unit = "mm", .min = 5, .max = 500, .doc = "Diameter or edge of the peg."});
-    s.add("length", &PegParams::length, {.unit = "mm", .min = 5, .max = 500, .doc = "Length of the peg."});
+    s.add("size", &PegParameters::size, {.unit = "mm", .min = 5, .max = 500, .doc = "Diameter or edge of the peg."});
+    s.add("length", &PegParameters::length, {.unit = "mm", .min = 5, .max = 500, .doc = "Length of the peg."});
     add_clearance(s, 0.001, 0.5);
-    s.add("blind", &PegParams::blind, {.doc = "Blind hole; otherwise a through hole."});
+    s.add("blind", &PegParameters::blind, {.doc = "Blind hole; otherwise a through hole."});
     add_segments(s);
   }
 };
 
-Model peg_in_hole(const PegParams& p) {
+Model peg_in_hole(const PegParameters& p) {
   Model model;
   model.clearance = p.clearance;
   const double r = p.size / 2, hole = r + p.clearance, half = p.size, top = 0.75 * p.length;
@@ -50,19 +50,20 @@ Model peg_in_hole(const PegParams& p) {
   return model;
 }
 
-struct SleeveParams {
+struct SleeveParameters {
   double diameter = 10, ratio = 10, clearance = 0.02;
   int segments = 48;
-  static void describe(Schema<SleeveParams>& s) {
-    s.add("diameter", &SleeveParams::diameter, {.unit = "mm", .min = 2, .max = 200, .doc = "Diameter of the shaft."});
-    s.add("ratio", &SleeveParams::ratio,
+  static void describe(Schema<SleeveParameters>& s) {
+    s.add("diameter", &SleeveParameters::diameter,
+          {.unit = "mm", .min = 2, .max = 200, .doc = "Diameter of the shaft."});
+    s.add("ratio", &SleeveParameters::ratio,
           {.unit = "1", .min = 0.5, .max = 50, .doc = "Length of the sleeve, divided by the diameter of the shaft."});
     add_clearance(s, 0.0001, 0.5);
     add_segments(s);
   }
 };
 
-Model long_sleeve(const SleeveParams& p) {
+Model long_sleeve(const SleeveParameters& p) {
   Model model;
   model.clearance = p.clearance;
   const double r = p.diameter / 2, length = p.ratio * p.diameter, over = 0.2 * p.diameter;
@@ -74,25 +75,26 @@ Model long_sleeve(const SleeveParams& p) {
   return model;
 }
 
-struct WasherParams {
+struct WasherParameters {
   double diameter = 10, length = 40, thickness = 3, tilt = 35, azimuth = 20, clearance = 0.1;
   int segments = 48;
-  static void describe(Schema<WasherParams>& s) {
-    s.add("diameter", &WasherParams::diameter, {.unit = "mm", .min = 4, .max = 200, .doc = "Diameter of the shaft."});
-    s.add("length", &WasherParams::length,
+  static void describe(Schema<WasherParameters>& s) {
+    s.add("diameter", &WasherParameters::diameter,
+          {.unit = "mm", .min = 4, .max = 200, .doc = "Diameter of the shaft."});
+    s.add("length", &WasherParameters::length,
           {.unit = "mm", .min = 10, .max = 500, .doc = "Length of the shaft above its foot."});
-    s.add("thickness", &WasherParams::thickness,
+    s.add("thickness", &WasherParameters::thickness,
           {.unit = "mm", .min = 0.5, .max = 5, .doc = "Thickness of the washer."});
-    s.add("tilt", &WasherParams::tilt,
+    s.add("tilt", &WasherParameters::tilt,
           {.unit = "deg", .min = 0, .max = 90, .doc = "Angle between the shaft and the z axis."});
-    s.add("azimuth", &WasherParams::azimuth,
+    s.add("azimuth", &WasherParameters::azimuth,
           {.unit = "deg", .min = -180, .max = 180, .doc = "Direction in the xy plane towards which the shaft leans."});
     add_clearance(s, 0.001, 0.5);
     add_segments(s);
   }
 };
 
-Model inclined_washer(const WasherParams& p) {
+Model inclined_washer(const WasherParameters& p) {
   Model model;
   model.clearance = p.clearance;
   const double r = p.diameter / 2, foot = 1.3 * p.diameter, bottom = -0.4 * p.diameter;
@@ -116,10 +118,10 @@ Model inclined_washer(const WasherParams& p) {
 }  // namespace
 
 std::vector<Maker> fit_makers() {
-  return {maker<PegParams>("peg_in_hole", "A round or square peg in a hole.", &peg_in_hole),
-          maker<WasherParams>("inclined_washer", "A washer on a shaft that leans away from every axis (figure 2).",
-                              &inclined_washer),
-          maker<SleeveParams>("long_sleeve", "A tight sleeve on a long cylinder (figure 6).", &long_sleeve)};
+  return {maker<PegParameters>("peg_in_hole", "A round or square peg in a hole.", &peg_in_hole),
+          maker<WasherParameters>("inclined_washer", "A washer on a shaft that leans away from every axis (figure 2).",
+                                  &inclined_washer),
+          maker<SleeveParameters>("long_sleeve", "A tight sleeve on a long cylinder (figure 6).", &long_sleeve)};
 }
 
 }  // namespace dismantle::samples

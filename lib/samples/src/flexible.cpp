@@ -10,27 +10,28 @@ namespace {
 
 using std::numbers::pi;
 
-struct SnapFitParams {
+struct SnapFitParameters {
   double width = 6, thickness = 4, reach = 1.5, clearance = 0.1, overlap = 0.1;
-  static void describe(Schema<SnapFitParams>& s) {
-    s.add("width", &SnapFitParams::width, {.unit = "mm", .min = 4, .max = 40, .doc = "Edge of the hook's square arm."});
-    s.add("thickness", &SnapFitParams::thickness,
+  static void describe(Schema<SnapFitParameters>& s) {
+    s.add("width", &SnapFitParameters::width,
+          {.unit = "mm", .min = 4, .max = 40, .doc = "Edge of the hook's square arm."});
+    s.add("thickness", &SnapFitParameters::thickness,
           {.unit = "mm", .min = 2, .max = 30, .doc = "Thickness of the plate that the arm goes through."});
     s.add(
-        "reach", &SnapFitParams::reach,
+        "reach", &SnapFitParameters::reach,
         {.unit = "mm",
          .min = 0.8,
          .max = 5,
          .doc = "How far the hook reaches beyond its arm: at least four times `clearance` + `overlap`, at most half of "
                 "`width`."});
     add_clearance(s, 0.02, 0.2);
-    s.add("overlap", &SnapFitParams::overlap,
+    s.add("overlap", &SnapFitParameters::overlap,
           {.unit = "mm", .min = 0.05, .max = 0.2, .doc = "How deep the hook cuts into the ledge that holds it."});
   }
 };
 
 /// The arm fills the hole of the plate, up to the clearance; the hook under the plate is wider than the hole.
-Model snap_fit(const SnapFitParams& p) {
+Model snap_fit(const SnapFitParameters& p) {
   if (p.reach < 4 * (p.clearance + p.overlap))
     throw std::invalid_argument("snap_fit: reach is less than four times clearance + overlap");
   if (p.reach > p.width / 2) throw std::invalid_argument("snap_fit: reach is more than half of width");
@@ -49,16 +50,16 @@ Model snap_fit(const SnapFitParams& p) {
   return model;
 }
 
-struct SpringParams {
+struct SpringParameters {
   double wire = 2, diameter = 16, pitch = 5, turns = 4, cut = 0.1;
-  static void describe(Schema<SpringParams>& s) {
-    s.add("wire", &SpringParams::wire, {.unit = "mm", .min = 0.6, .max = 6, .doc = "Diameter of the wire."});
-    s.add("diameter", &SpringParams::diameter,
+  static void describe(Schema<SpringParameters>& s) {
+    s.add("wire", &SpringParameters::wire, {.unit = "mm", .min = 0.6, .max = 6, .doc = "Diameter of the wire."});
+    s.add("diameter", &SpringParameters::diameter,
           {.unit = "mm", .min = 6, .max = 100, .doc = "Mean diameter of the coils; at least four times `wire`."});
-    s.add("pitch", &SpringParams::pitch,
+    s.add("pitch", &SpringParameters::pitch,
           {.unit = "mm", .min = 1, .max = 30, .doc = "Rise per turn; from 1.5 times `wire` to `diameter`."});
-    s.add("turns", &SpringParams::turns, {.unit = "1", .min = 1.5, .max = 20, .doc = "Number of turns."});
-    s.add("cut", &SpringParams::cut,
+    s.add("turns", &SpringParameters::turns, {.unit = "1", .min = 1.5, .max = 20, .doc = "Number of turns."});
+    s.add("cut", &SpringParameters::cut,
           {.unit = "mm",
            .min = 0.05,
            .max = 0.3,
@@ -66,7 +67,7 @@ struct SpringParams {
   }
 };
 
-Model spring_between_seats(const SpringParams& p) {
+Model spring_between_seats(const SpringParameters& p) {
   if (p.diameter < 4 * p.wire)
     throw std::invalid_argument("spring_between_seats: diameter is less than four times wire");
   if (p.pitch < 1.5 * p.wire || p.pitch > p.diameter)
@@ -101,16 +102,16 @@ Model spring_between_seats(const SpringParams& p) {
   return model;
 }
 
-struct GearParams {
+struct GearParameters {
   int teeth_a = 20, teeth_b = 30;
   double module = 2, width = 8, cut = 0.2;
-  static void describe(Schema<GearParams>& s) {
-    s.add("teeth_a", &GearParams::teeth_a, {.unit = "1", .min = 18, .max = 80, .doc = "Teeth of the first gear."});
-    s.add("teeth_b", &GearParams::teeth_b, {.unit = "1", .min = 18, .max = 80, .doc = "Teeth of the second gear."});
-    s.add("module", &GearParams::module,
+  static void describe(Schema<GearParameters>& s) {
+    s.add("teeth_a", &GearParameters::teeth_a, {.unit = "1", .min = 18, .max = 80, .doc = "Teeth of the first gear."});
+    s.add("teeth_b", &GearParameters::teeth_b, {.unit = "1", .min = 18, .max = 80, .doc = "Teeth of the second gear."});
+    s.add("module", &GearParameters::module,
           {.unit = "mm", .min = 0.5, .max = 5, .doc = "Pitch diameter, divided by the number of teeth."});
-    s.add("width", &GearParams::width, {.unit = "mm", .min = 2, .max = 60, .doc = "Length of the teeth."});
-    s.add("cut", &GearParams::cut,
+    s.add("width", &GearParameters::width, {.unit = "mm", .min = 2, .max = 60, .doc = "Length of the teeth."});
+    s.add("cut", &GearParameters::cut,
           {.unit = "mm",
            .min = 0.05,
            .max = 0.5,
@@ -151,7 +152,7 @@ Loop gear_section(int teeth, double module, double phase, double z) {
   return loop;
 }
 
-Model gear_pair(const GearParams& p) {
+Model gear_pair(const GearParameters& p) {
   if (p.cut > p.module / 6) throw std::invalid_argument("gear_pair: cut is more than a sixth of module");
   Model model;
   const auto gear = [&p](int teeth, double phase) {
@@ -178,12 +179,12 @@ Model gear_pair(const GearParams& p) {
 
 std::vector<Maker> flexible_makers() {
   const SampleFacts overlap{.clean = false};
-  return {maker<SnapFitParams>("snap_fit", "A clip whose hook is behind a ledge and cuts into it.", &snap_fit,
-                               {.solvable = false, .clean = false}),
-          maker<SpringParams>("spring_between_seats", "A compression spring whose ends cut into both seats.",
-                              &spring_between_seats, overlap),
-          maker<GearParams>("gear_pair", "Two spur gears whose axes are too near: the teeth cut into each other.",
-                            &gear_pair, overlap)};
+  return {maker<SnapFitParameters>("snap_fit", "A clip whose hook is behind a ledge and cuts into it.", &snap_fit,
+                                   {.solvable = false, .clean = false}),
+          maker<SpringParameters>("spring_between_seats", "A compression spring whose ends cut into both seats.",
+                                  &spring_between_seats, overlap),
+          maker<GearParameters>("gear_pair", "Two spur gears whose axes are too near: the teeth cut into each other.",
+                                &gear_pair, overlap)};
 }
 
 }  // namespace dismantle::samples

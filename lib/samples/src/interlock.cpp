@@ -14,12 +14,12 @@ struct TwistMesh {
   double layer = 2.5 * pi / 180;  // turn from layer to layer, rad
 };
 
-struct InterlockParams {
+struct InterlockParameters {
   double size = 12, turn = 180, clearance = 0.2;
-  static void describe(Schema<InterlockParams>& s) {
-    s.add("size", &InterlockParams::size,
+  static void describe(Schema<InterlockParameters>& s) {
+    s.add("size", &InterlockParameters::size,
           {.unit = "mm", .min = 8, .max = 100, .doc = "Edge of the twisted square bar."});
-    s.add("turn", &InterlockParams::turn,
+    s.add("turn", &InterlockParameters::turn,
           {.unit = "deg", .min = 45, .max = 360, .doc = "Rotation of the spindle that lifts the block off its bar."});
     add_clearance(s, 0.02, 0.5);
   }
@@ -49,7 +49,7 @@ void twist(Loft& loft, double half, double rate, double start, double from, doub
 /// The spindle cannot rise (its flange is under the frame's lip), cannot leave sideways (the block around it is
 /// between the frame's posts) and cannot turn alone (its twisted bar is in the block's twisted hole). The block
 /// can only rise, and only while the spindle turns. Once the block is off, the spindle slides out sideways.
-Model interlock3(const InterlockParams& p) {
+Model interlock3(const InterlockParameters& p) {
   Model model;
   model.clearance = p.clearance;
   const double s = p.size, c = p.clearance, half = s / 2, corner = half * std::numbers::sqrt2;
@@ -99,9 +99,9 @@ Model interlock3(const InterlockParams& p) {
 }  // namespace
 
 std::vector<Maker> interlock_makers() {
-  return {maker<InterlockParams>("interlock3",
-                                 "A block rises while the spindle in it turns; neither moves alone (figure 9).",
-                                 &interlock3, {.translation_only = false, .one_at_a_time = false})};
+  return {maker<InterlockParameters>("interlock3",
+                                     "A block rises while the spindle in it turns; neither moves alone (figure 9).",
+                                     &interlock3, {.translation_only = false, .one_at_a_time = false})};
 }
 
 }  // namespace dismantle::samples

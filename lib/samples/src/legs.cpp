@@ -12,25 +12,26 @@ namespace {
 
 using std::numbers::pi;
 
-struct LegParams {
+struct LegParameters {
   int legs = 4, segments = 32;
   double diameter = 16, pitch = 4, length = 60, clearance = 0.15;
-  static void describe(Schema<LegParams>& s) {
-    s.add("legs", &LegParams::legs, {.unit = "1", .min = 1, .max = 16, .doc = "Number of legs below the top."});
-    s.add("diameter", &LegParams::diameter,
+  static void describe(Schema<LegParameters>& s) {
+    s.add("legs", &LegParameters::legs, {.unit = "1", .min = 1, .max = 16, .doc = "Number of legs below the top."});
+    s.add("diameter", &LegParameters::diameter,
           {.unit = "mm", .min = 4, .max = 100, .doc = "Major diameter of the threads, and their length."});
-    s.add("pitch", &LegParams::pitch,
+    s.add("pitch", &LegParameters::pitch,
           {.unit = "mm",
            .min = 0.5,
            .max = 25,
            .doc = "Pitch of the right-handed, single-start threads; at most a quarter of `diameter`."});
-    s.add("length", &LegParams::length, {.unit = "mm", .min = 5, .max = 1000, .doc = "Length of a leg below the top."});
-    s.add("clearance", &LegParams::clearance,
+    s.add("length", &LegParameters::length,
+          {.unit = "mm", .min = 5, .max = 1000, .doc = "Length of a leg below the top."});
+    s.add("clearance", &LegParameters::clearance,
           {.unit = "mm",
            .min = 0.001,
            .max = 0.5,
            .doc = "Distance between the flanks of leg and top; at most a tenth of `pitch`."});
-    s.add("segments", &LegParams::segments,
+    s.add("segments", &LegParameters::segments,
           {.unit = "1", .min = 24, .max = 512, .doc = "Number of flat faces per full turn of a round surface."});
   }
 };
@@ -88,7 +89,7 @@ class Tiles {
   std::map<Corner, std::uint32_t> known_;
 };
 
-Model threaded_legs(const LegParams& p) {
+Model threaded_legs(const LegParameters& p) {
   if (p.pitch > p.diameter / 4) throw std::invalid_argument("threaded_legs: pitch is more than a quarter of diameter");
   if (p.clearance > p.pitch / 10) throw std::invalid_argument("threaded_legs: clearance is more than a tenth of pitch");
   Model model;
@@ -142,8 +143,8 @@ Model threaded_legs(const LegParams& p) {
 }  // namespace
 
 std::vector<Maker> leg_makers() {
-  return {maker<LegParams>("threaded_legs", "A top with legs that are screwed into it by coarse threads.",
-                           &threaded_legs, {.translation_only = false})};
+  return {maker<LegParameters>("threaded_legs", "A top with legs that are screwed into it by coarse threads.",
+                               &threaded_legs, {.translation_only = false})};
 }
 
 }  // namespace dismantle::samples

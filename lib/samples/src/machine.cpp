@@ -7,12 +7,12 @@
 namespace dismantle::samples {
 namespace {
 
-struct MachineParams {
+struct MachineParameters {
   int parts = 12;
   double clearance = 0.1;
   int segments = 32;
-  static void describe(Schema<MachineParams>& s) {
-    s.add("parts", &MachineParams::parts,
+  static void describe(Schema<MachineParameters>& s) {
+    s.add("parts", &MachineParameters::parts,
           {.unit = "1", .min = 4, .max = 10000, .doc = "Number of parts, the base included."});
     add_clearance(s, 0.005, 0.3);
     add_segments(s);
@@ -37,7 +37,7 @@ struct Module {
 /// Makes one module around the origin of its tile, z = 0 at the top of the base, and moves it to its place.
 class ModuleMaker {
  public:
-  ModuleMaker(Model& model, const MachineParams& p, const Point& place, int number, double outward)
+  ModuleMaker(Model& model, const MachineParameters& p, const Point& place, int number, double outward)
       : model_(model), p_(p), c_(p.clearance), place_(place), number_(std::to_string(number)), outward_(outward) {}
 
   void make(const Module& m) {
@@ -51,7 +51,9 @@ class ModuleMaker {
     for (Point& v : mesh.vertices) v += place_;
     return add_part(model_, name, std::move(mesh));
   }
-  void remove(const std::string& part, const Point& way) { model_.truth.steps.push_back(slide(part, way, true)); }
+  void remove(const std::string& part, const Point& displacement) {
+    model_.truth.steps.push_back(slide(part, displacement, true));
+  }
   void before(const std::string& a, const std::string& b) { model_.truth.precedence.emplace_back(a, b); }
 
   /// A flanged shaft with washers on it; the lowest washer lies on the flange.
@@ -134,7 +136,7 @@ class ModuleMaker {
   }
 
   Model& model_;
-  const MachineParams& p_;
+  const MachineParameters& p_;
   double c_;
   Point place_;
   std::string number_;
@@ -160,7 +162,7 @@ std::vector<Module> modules_for(int parts) {
   return modules;
 }
 
-Model machine(const MachineParams& p) {
+Model machine(const MachineParameters& p) {
   Model model;
   model.clearance = p.clearance;
   std::vector<Module> modules = modules_for(p.parts - 1);
@@ -199,8 +201,8 @@ Model machine(const MachineParams& p) {
 }  // namespace
 
 std::vector<Maker> machine_makers() {
-  return {maker<MachineParams>("machine", "A base plate with shafts, washers, forks, bridges and pinned towers.",
-                               &machine)};
+  return {maker<MachineParameters>("machine", "A base plate with shafts, washers, forks, bridges and pinned towers.",
+                                   &machine)};
 }
 
 }  // namespace dismantle::samples

@@ -24,14 +24,15 @@ void take_off(Model& model, const std::vector<Point>& displacements) {
     model.truth.steps.push_back(slide(model.parts[k].name, displacements[k], true));
 }
 
-struct StackParams {
+struct StackParameters {
   int blocks = 4;
   double width = 20, height = 10, shift = 0;
-  static void describe(Schema<StackParams>& s) {
-    s.add("blocks", &StackParams::blocks, {.unit = "1", .min = 2, .max = 24, .doc = "Number of blocks."});
-    s.add("width", &StackParams::width, {.unit = "mm", .min = 1, .max = 200, .doc = "Edge of a block along x and y."});
-    s.add("height", &StackParams::height, {.unit = "mm", .min = 1, .max = 200, .doc = "Height of a block."});
-    s.add("shift", &StackParams::shift,
+  static void describe(Schema<StackParameters>& s) {
+    s.add("blocks", &StackParameters::blocks, {.unit = "1", .min = 2, .max = 24, .doc = "Number of blocks."});
+    s.add("width", &StackParameters::width,
+          {.unit = "mm", .min = 1, .max = 200, .doc = "Edge of a block along x and y."});
+    s.add("height", &StackParameters::height, {.unit = "mm", .min = 1, .max = 200, .doc = "Height of a block."});
+    s.add("shift", &StackParameters::shift,
           {.unit = "1",
            .min = 0,
            .max = 0.9,
@@ -41,7 +42,7 @@ struct StackParams {
 };
 
 /// The overhang of n blocks is shift * width / 2 * (1 + 1/2 + ... + 1/(n-1)).
-Model stack(const StackParams& p) {
+Model stack(const StackParameters& p) {
   Model model;
   model.clearance = 0.9 * p.height;
   double x = 0;
@@ -58,17 +59,17 @@ Model stack(const StackParams& p) {
   return model;
 }
 
-struct TableParams {
+struct TableParameters {
   double size = 60, height = 40, leg = 6, top = 4;
-  static void describe(Schema<TableParams>& s) {
-    s.add("size", &TableParams::size, {.unit = "mm", .min = 20, .max = 500, .doc = "Edge of the top."});
-    s.add("height", &TableParams::height, {.unit = "mm", .min = 5, .max = 500, .doc = "Length of a leg."});
-    s.add("leg", &TableParams::leg, {.unit = "mm", .min = 1, .max = 9, .doc = "Edge of a leg."});
-    s.add("top", &TableParams::top, {.unit = "mm", .min = 1, .max = 50, .doc = "Thickness of the top."});
+  static void describe(Schema<TableParameters>& s) {
+    s.add("size", &TableParameters::size, {.unit = "mm", .min = 20, .max = 500, .doc = "Edge of the top."});
+    s.add("height", &TableParameters::height, {.unit = "mm", .min = 5, .max = 500, .doc = "Length of a leg."});
+    s.add("leg", &TableParameters::leg, {.unit = "mm", .min = 1, .max = 9, .doc = "Edge of a leg."});
+    s.add("top", &TableParameters::top, {.unit = "mm", .min = 1, .max = 50, .doc = "Thickness of the top."});
   }
 };
 
-Model loose_table(const TableParams& p) {
+Model loose_table(const TableParameters& p) {
   Model model;
   model.clearance = 0.9 * (p.size - 2 * p.leg);
   const double far = p.size - p.leg;
@@ -87,18 +88,18 @@ Model loose_table(const TableParams& p) {
   return model;
 }
 
-struct WedgedParams {
+struct WedgedParameters {
   double size = 20, wall = 10, height = 30;
-  static void describe(Schema<WedgedParams>& s) {
-    s.add("size", &WedgedParams::size, {.unit = "mm", .min = 5, .max = 200, .doc = "Edge of the block."});
-    s.add("wall", &WedgedParams::wall, {.unit = "mm", .min = 2, .max = 100, .doc = "Thickness of a wall."});
-    s.add("height", &WedgedParams::height,
+  static void describe(Schema<WedgedParameters>& s) {
+    s.add("size", &WedgedParameters::size, {.unit = "mm", .min = 5, .max = 200, .doc = "Edge of the block."});
+    s.add("wall", &WedgedParameters::wall, {.unit = "mm", .min = 2, .max = 100, .doc = "Thickness of a wall."});
+    s.add("height", &WedgedParameters::height,
           {.unit = "mm", .min = 1, .max = 200, .doc = "Height of the block above the floor."});
   }
 };
 
 /// Friction could carry the block, but nothing presses it.
-Model wedged_block(const WedgedParams& p) {
+Model wedged_block(const WedgedParameters& p) {
   Model model;
   model.clearance = p.height;
   const double top = p.height + p.size;
@@ -124,24 +125,24 @@ Mesh voussoir(double from, double to, double left, double right, double inner, d
   return Loft().to(face(right)).to(face(left)).capped();
 }
 
-struct ArchParams {
+struct ArchParameters {
   int voussoirs = 9;
   double radius = 100, thickness = 25, depth = 30;
-  static void describe(Schema<ArchParams>& s) {
-    s.add("voussoirs", &ArchParams::voussoirs,
+  static void describe(Schema<ArchParameters>& s) {
+    s.add("voussoirs", &ArchParameters::voussoirs,
           {.unit = "1", .min = 3, .max = 25, .doc = "Number of blocks of the arch."});
-    s.add("radius", &ArchParams::radius,
+    s.add("radius", &ArchParameters::radius,
           {.unit = "mm", .min = 10, .max = 1000, .doc = "Radius of the middle of the arch."});
-    s.add("thickness", &ArchParams::thickness,
+    s.add("thickness", &ArchParameters::thickness,
           {.unit = "mm",
            .min = 0.5,
            .max = 300,
            .doc = "Thickness; the half circle stands if it is more than about 0.108 of `radius`."});
-    s.add("depth", &ArchParams::depth, {.unit = "mm", .min = 1, .max = 500, .doc = "Depth along y."});
+    s.add("depth", &ArchParameters::depth, {.unit = "mm", .min = 1, .max = 500, .doc = "Depth along y."});
   }
 };
 
-Model arch(const ArchParams& p) {
+Model arch(const ArchParameters& p) {
   if (p.thickness > 0.5 * p.radius) throw std::invalid_argument("arch: thickness is more than half of radius");
   Model model;
   const double inner = p.radius - p.thickness / 2, outer = p.radius + p.thickness / 2;
@@ -162,21 +163,22 @@ Model arch(const ArchParams& p) {
   return model;
 }
 
-struct DomeParams {
+struct DomeParameters {
   int rings = 2, segments = 6;
   double radius = 100, thickness = 20;
-  static void describe(Schema<DomeParams>& s) {
-    s.add("rings", &DomeParams::rings, {.unit = "1", .min = 1, .max = 12, .doc = "Number of rings below the cap."});
-    s.add("segments", &DomeParams::segments, {.unit = "1", .min = 5, .max = 24, .doc = "Number of blocks of a ring."});
-    s.add("radius", &DomeParams::radius,
+  static void describe(Schema<DomeParameters>& s) {
+    s.add("rings", &DomeParameters::rings, {.unit = "1", .min = 1, .max = 12, .doc = "Number of rings below the cap."});
+    s.add("segments", &DomeParameters::segments,
+          {.unit = "1", .min = 5, .max = 24, .doc = "Number of blocks of a ring."});
+    s.add("radius", &DomeParameters::radius,
           {.unit = "mm", .min = 10, .max = 1000, .doc = "Radius of the middle of the shell."});
-    s.add("thickness", &DomeParams::thickness,
+    s.add("thickness", &DomeParameters::thickness,
           {.unit = "mm", .min = 1, .max = 500, .doc = "Thickness; at most half of `radius`."});
   }
 };
 
 /// All joints lie in planes through the centre: each block slides outwards, whatever else is there.
-Model dome(const DomeParams& p) {
+Model dome(const DomeParameters& p) {
   if (p.thickness > 0.5 * p.radius) throw std::invalid_argument("dome: thickness is more than half of radius");
   Model model;
   const double inner = p.radius - p.thickness / 2, outer = p.radius + p.thickness / 2;
@@ -218,11 +220,12 @@ Model dome(const DomeParams& p) {
 
 std::vector<Maker> pile_makers() {
   const SampleFacts touching{.clean = false};
-  return {maker<StackParams>("stack", "Blocks on each other, in line or leaning out.", &stack, touching),
-          maker<TableParams>("loose_table", "A top that lies on four legs.", &loose_table, touching),
-          maker<WedgedParams>("wedged_block", "A block between two walls, above the floor.", &wedged_block, touching),
-          maker<ArchParams>("arch", "A half circle of wedges on the ground.", &arch, touching),
-          maker<DomeParams>("dome", "Rings of wedges and a cap on the ground.", &dome, touching)};
+  return {
+      maker<StackParameters>("stack", "Blocks on each other, in line or leaning out.", &stack, touching),
+      maker<TableParameters>("loose_table", "A top that lies on four legs.", &loose_table, touching),
+      maker<WedgedParameters>("wedged_block", "A block between two walls, above the floor.", &wedged_block, touching),
+      maker<ArchParameters>("arch", "A half circle of wedges on the ground.", &arch, touching),
+      maker<DomeParameters>("dome", "Rings of wedges and a cap on the ground.", &dome, touching)};
 }
 
 }  // namespace dismantle::samples

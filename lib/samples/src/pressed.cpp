@@ -10,20 +10,21 @@ namespace {
 
 using std::numbers::pi;
 
-struct PressedPinParams {
+struct PressedPinParameters {
   double diameter = 10, length = 30, interference = 0.1;
   int segments = 64;
-  static void describe(Schema<PressedPinParams>& s) {
-    s.add("diameter", &PressedPinParams::diameter, {.unit = "mm", .min = 3, .max = 100, .doc = "Diameter of the pin."});
-    s.add("length", &PressedPinParams::length,
+  static void describe(Schema<PressedPinParameters>& s) {
+    s.add("diameter", &PressedPinParameters::diameter,
+          {.unit = "mm", .min = 3, .max = 100, .doc = "Diameter of the pin."});
+    s.add("length", &PressedPinParameters::length,
           {.unit = "mm", .min = 6, .max = 300, .doc = "Length of the pin; half of it is in the plate."});
-    s.add("interference", &PressedPinParams::interference,
+    s.add("interference", &PressedPinParameters::interference,
           {.unit = "mm", .min = 0.05, .max = 0.2, .doc = "Diameter of the pin minus the diameter of its hole."});
     add_segments(s);
   }
 };
 
-Model pressed_pin(const PressedPinParams& p) {
+Model pressed_pin(const PressedPinParameters& p) {
   Model model;
   const double r = p.diameter / 2, hole = r - p.interference / 2, half = 1.5 * p.diameter, top = 0.5 * p.length;
   Loft plate;
@@ -43,32 +44,32 @@ Model pressed_pin(const PressedPinParams& p) {
 
 enum class ScrewShape { thread, cylinder };
 
-struct PlainBoreParams {
+struct PlainBoreParameters {
   ScrewShape shape = ScrewShape::thread;
   double diameter = 6, pitch = 1, length = 15, bite = 0.15;
   int segments = 48;
-  static void describe(Schema<PlainBoreParams>& s) {
-    s.add_choice("shape", &PlainBoreParams::shape,
+  static void describe(Schema<PlainBoreParameters>& s) {
+    s.add_choice("shape", &PlainBoreParameters::shape,
                  {{"thread", ScrewShape::thread, "an ISO metric thread"},
                   {"cylinder", ScrewShape::cylinder, "a cylinder of the major diameter"}},
                  "How the screw is modelled.");
-    s.add("diameter", &PlainBoreParams::diameter,
+    s.add("diameter", &PlainBoreParameters::diameter,
           {.unit = "mm", .min = 3, .max = 50, .doc = "Major diameter of the screw."});
-    s.add("pitch", &PlainBoreParams::pitch,
+    s.add("pitch", &PlainBoreParameters::pitch,
           {.unit = "mm", .min = 0.4, .max = 6, .doc = "Pitch of the thread; at most a quarter of `diameter`."});
-    s.add("length", &PlainBoreParams::length,
+    s.add("length", &PlainBoreParameters::length,
           {.unit = "mm", .min = 6, .max = 200, .doc = "Thickness of the plate that the screw goes through."});
-    s.add("bite", &PlainBoreParams::bite,
+    s.add("bite", &PlainBoreParameters::bite,
           {.unit = "mm",
            .min = 0.05,
            .max = 0.5,
            .doc = "Radius of the screw minus the radius of the bore; at most 0.4 of `pitch`."});
-    s.add("segments", &PlainBoreParams::segments,
+    s.add("segments", &PlainBoreParameters::segments,
           {.unit = "1", .min = 24, .max = 256, .doc = "Number of flat faces per full turn of a round surface."});
   }
 };
 
-Model plain_bore_screw(const PlainBoreParams& p) {
+Model plain_bore_screw(const PlainBoreParameters& p) {
   if (p.pitch > p.diameter / 4)
     throw std::invalid_argument("plain_bore_screw: pitch is more than a quarter of diameter");
   if (p.bite > 0.4 * p.pitch) throw std::invalid_argument("plain_bore_screw: bite is more than 0.4 of pitch");
@@ -104,28 +105,29 @@ Model plain_bore_screw(const PlainBoreParams& p) {
   return model;
 }
 
-struct ORingParams {
+struct ORingParameters {
   double diameter = 20, section = 3, squeeze = 0.2, clearance = 0.1;
   int segments = 64;
-  static void describe(Schema<ORingParams>& s) {
-    s.add("diameter", &ORingParams::diameter, {.unit = "mm", .min = 10, .max = 200, .doc = "Diameter of the shaft."});
-    s.add("section", &ORingParams::section,
+  static void describe(Schema<ORingParameters>& s) {
+    s.add("diameter", &ORingParameters::diameter,
+          {.unit = "mm", .min = 10, .max = 200, .doc = "Diameter of the shaft."});
+    s.add("section", &ORingParameters::section,
           {.unit = "mm",
            .min = 1.5,
            .max = 10,
            .doc = "Diameter of the ring's section; at most a quarter of `diameter`."});
-    s.add("squeeze", &ORingParams::squeeze,
+    s.add("squeeze", &ORingParameters::squeeze,
           {.unit = "mm",
            .min = 0.05,
            .max = 0.6,
            .doc = "How far the ring cuts into the groove's floor and into the bore; at most an eighth of `section`."});
     add_clearance(s, 0.01, 0.3);
-    s.add("segments", &ORingParams::segments,
+    s.add("segments", &ORingParameters::segments,
           {.unit = "1", .min = 32, .max = 256, .doc = "Number of flat faces per full turn of a round surface."});
   }
 };
 
-Model o_ring(const ORingParams& p) {
+Model o_ring(const ORingParameters& p) {
   if (p.section > p.diameter / 4) throw std::invalid_argument("o_ring: section is more than a quarter of diameter");
   if (p.squeeze > p.section / 8) throw std::invalid_argument("o_ring: squeeze is more than an eighth of section");
   const int sides = 24;  // of the ring's section; a multiple of four, so that its extremes are corners
@@ -160,10 +162,11 @@ Model o_ring(const ORingParams& p) {
 
 std::vector<Maker> pressed_makers() {
   const SampleFacts overlap{.clean = false};
-  return {maker<PressedPinParams>("pressed_pin", "A pin that is a little larger than its hole.", &pressed_pin, overlap),
-          maker<PlainBoreParams>("plain_bore_screw", "A screw that cuts into the wall of a plain bore.",
+  return {
+      maker<PressedPinParameters>("pressed_pin", "A pin that is a little larger than its hole.", &pressed_pin, overlap),
+      maker<PlainBoreParameters>("plain_bore_screw", "A screw that cuts into the wall of a plain bore.",
                                  &plain_bore_screw, overlap),
-          maker<ORingParams>("o_ring", "A seal in the groove of a shaft, squeezed by a housing.", &o_ring,
+      maker<ORingParameters>("o_ring", "A seal in the groove of a shaft, squeezed by a housing.", &o_ring,
                              {.solvable = false, .clean = false})};
 }
 

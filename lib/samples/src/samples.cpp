@@ -104,9 +104,9 @@ std::string add_part(Model& model, std::string name, Mesh mesh) {
 
 Screw along(const Point& travel) { return {travel.normalized(), Point::Zero(), 0.0, travel.norm()}; }
 
-TruthStep slide(const std::string& part, const Point& way, bool out) {
+TruthStep slide(const std::string& part, const Point& displacement, bool out) {
   TruthStep step;
-  step.motions.push_back({part, along(way)});
+  step.motions.push_back({part, along(displacement)});
   if (out) step.out = part;
   return step;
 }

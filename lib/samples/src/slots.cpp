@@ -6,46 +6,50 @@
 namespace dismantle::samples {
 namespace {
 
-struct LSlotParams {
+struct LSlotParameters {
   double length = 15, width = 10, height = 8, travel = 20, wall = 5, clearance = 0.2;
-  static void describe(Schema<LSlotParams>& s) {
-    s.add("length", &LSlotParams::length, {.unit = "mm", .min = 5, .max = 200, .doc = "Size of the slider along x."});
-    s.add("width", &LSlotParams::width, {.unit = "mm", .min = 5, .max = 200, .doc = "Size of the slider along y."});
-    s.add("height", &LSlotParams::height, {.unit = "mm", .min = 5, .max = 200, .doc = "Size of the slider along z."});
-    s.add("travel", &LSlotParams::travel, {.unit = "mm", .min = 4, .max = 200, .doc = "First slide, along +x."});
-    s.add("wall", &LSlotParams::wall, {.unit = "mm", .min = 0.5, .max = 50, .doc = "Thickness of walls and roof."});
+  static void describe(Schema<LSlotParameters>& s) {
+    s.add("length", &LSlotParameters::length,
+          {.unit = "mm", .min = 5, .max = 200, .doc = "Size of the slider along x."});
+    s.add("width", &LSlotParameters::width, {.unit = "mm", .min = 5, .max = 200, .doc = "Size of the slider along y."});
+    s.add("height", &LSlotParameters::height,
+          {.unit = "mm", .min = 5, .max = 200, .doc = "Size of the slider along z."});
+    s.add("travel", &LSlotParameters::travel, {.unit = "mm", .min = 4, .max = 200, .doc = "First slide, along +x."});
+    s.add("wall", &LSlotParameters::wall, {.unit = "mm", .min = 0.5, .max = 50, .doc = "Thickness of walls and roof."});
     add_clearance(s, 0.001, 0.5);
   }
 };
 
-Model l_slot(const LSlotParams& p) {
+Model l_slot(const LSlotParameters& p) {
   Model model;
   model.clearance = p.clearance;
   const Point size(p.length, p.width, p.height), c = Point::Constant(p.clearance), w = Point::Constant(p.wall);
-  const Point way(p.travel, 0, 0), roof(0, 0, p.wall);
+  const Point displacement(p.travel, 0, 0), roof(0, 0, p.wall);
   Cells housing;
-  housing.add(-c - w, size + way + c + w).cut(-c, size + way + c).cut(way - c, size + way + c + roof);
+  housing.add(-c - w, size + displacement + c + w)
+      .cut(-c, size + displacement + c)
+      .cut(displacement - c, size + displacement + c + roof);
   add_part(model, "housing", housing.mesh());
   add_part(model, "slider", Cells().add(Point::Zero(), size).mesh());
-  model.truth.steps.push_back(slide("slider", way, false));
+  model.truth.steps.push_back(slide("slider", displacement, false));
   model.truth.steps.push_back(slide("slider", Point(0, 0, 1.2 * p.height + p.clearance + p.wall), true));
   return model;
 }
 
-struct ZigzagParams {
+struct ZigzagParameters {
   double size = 10, wall = 3, clearance = 0.2;
   int bends = 2;
-  static void describe(Schema<ZigzagParams>& s) {
-    s.add("bends", &ZigzagParams::bends,
+  static void describe(Schema<ZigzagParameters>& s) {
+    s.add("bends", &ZigzagParameters::bends,
           {.unit = "1", .min = 1, .max = 8, .doc = "Number of bends; each needs two slides."});
-    s.add("size", &ZigzagParams::size, {.unit = "mm", .min = 5, .max = 200, .doc = "Edge of the sliding block."});
-    s.add("wall", &ZigzagParams::wall,
+    s.add("size", &ZigzagParameters::size, {.unit = "mm", .min = 5, .max = 200, .doc = "Edge of the sliding block."});
+    s.add("wall", &ZigzagParameters::wall,
           {.unit = "mm", .min = 0.5, .max = 50, .doc = "Thickness of the wall between two sections of the slot."});
     add_clearance(s, 0.001, 0.5);
   }
 };
 
-Model zigzag(const ZigzagParams& p) {
+Model zigzag(const ZigzagParameters& p) {
   Model model;
   model.clearance = p.clearance;
   const Point size = Point::Constant(p.size), c = Point::Constant(p.clearance), w = Point::Constant(p.wall);
@@ -71,20 +75,20 @@ Model zigzag(const ZigzagParams& p) {
   return model;
 }
 
-struct StackedBoxParams {
+struct StackedBoxParameters {
   int count = 3;
   double size = 60, plate = 6, wall = 4, clearance = 0.3;
-  static void describe(Schema<StackedBoxParams>& s) {
-    s.add("count", &StackedBoxParams::count, {.unit = "1", .min = 1, .max = 100, .doc = "Number of plates."});
-    s.add("size", &StackedBoxParams::size, {.unit = "mm", .min = 10, .max = 500, .doc = "Inner width of the box."});
-    s.add("plate", &StackedBoxParams::plate, {.unit = "mm", .min = 3, .max = 50, .doc = "Thickness of a plate."});
-    s.add("wall", &StackedBoxParams::wall,
+  static void describe(Schema<StackedBoxParameters>& s) {
+    s.add("count", &StackedBoxParameters::count, {.unit = "1", .min = 1, .max = 100, .doc = "Number of plates."});
+    s.add("size", &StackedBoxParameters::size, {.unit = "mm", .min = 10, .max = 500, .doc = "Inner width of the box."});
+    s.add("plate", &StackedBoxParameters::plate, {.unit = "mm", .min = 3, .max = 50, .doc = "Thickness of a plate."});
+    s.add("wall", &StackedBoxParameters::wall,
           {.unit = "mm", .min = 0.5, .max = 50, .doc = "Thickness of walls, floor and lid."});
     add_clearance(s, 0.001, 0.5);
   }
 };
 
-Model stacked_box(const StackedBoxParams& p) {
+Model stacked_box(const StackedBoxParameters& p) {
   Model model;
   model.clearance = p.clearance;
   model.truth.base = "box";
@@ -124,14 +128,15 @@ Model stacked_box(const StackedBoxParams& p) {
   return model;
 }
 
-struct ClosedBoxParams {
+struct ClosedBoxParameters {
   double size = 100, height = 20, plate = 5, wall = 0.003, clearance = 1;
-  static void describe(Schema<ClosedBoxParams>& s) {
-    s.add("size", &ClosedBoxParams::size,
+  static void describe(Schema<ClosedBoxParameters>& s) {
+    s.add("size", &ClosedBoxParameters::size,
           {.unit = "mm", .min = 20, .max = 500, .doc = "Outer edge of the box along x and y."});
-    s.add("height", &ClosedBoxParams::height, {.unit = "mm", .min = 10, .max = 500, .doc = "Inner height of the box."});
-    s.add("plate", &ClosedBoxParams::plate, {.unit = "mm", .min = 1, .max = 8, .doc = "Thickness of the plate."});
-    s.add("wall", &ClosedBoxParams::wall,
+    s.add("height", &ClosedBoxParameters::height,
+          {.unit = "mm", .min = 10, .max = 500, .doc = "Inner height of the box."});
+    s.add("plate", &ClosedBoxParameters::plate, {.unit = "mm", .min = 1, .max = 8, .doc = "Thickness of the plate."});
+    s.add("wall", &ClosedBoxParameters::wall,
           {.unit = "1",
            .min = 1e-5,
            .max = 0.2,
@@ -140,7 +145,7 @@ struct ClosedBoxParams {
   }
 };
 
-Model closed_box(const ClosedBoxParams& p) {
+Model closed_box(const ClosedBoxParameters& p) {
   Model model;
   model.clearance = p.clearance;
   const double wall = p.wall * p.size;
@@ -155,12 +160,12 @@ Model closed_box(const ClosedBoxParams& p) {
 }  // namespace
 
 std::vector<Maker> slot_makers() {
-  return {maker<LSlotParams>("l_slot", "A slider under a roof: to the side, then up.", &l_slot),
-          maker<ZigzagParams>("zigzag", "A block in a slot of several bends.", &zigzag),
-          maker<StackedBoxParams>("stacked_box", "A box with a lid and plates stacked inside: the order matters.",
-                                  &stacked_box),
-          maker<ClosedBoxParams>("closed_box", "A plate inside a closed box of thin walls: it can never leave.",
-                                 &closed_box, {.solvable = false})};
+  return {maker<LSlotParameters>("l_slot", "A slider under a roof: to the side, then up.", &l_slot),
+          maker<ZigzagParameters>("zigzag", "A block in a slot of several bends.", &zigzag),
+          maker<StackedBoxParameters>("stacked_box", "A box with a lid and plates stacked inside: the order matters.",
+                                      &stacked_box),
+          maker<ClosedBoxParameters>("closed_box", "A plate inside a closed box of thin walls: it can never leave.",
+                                     &closed_box, {.solvable = false})};
 }
 
 }  // namespace dismantle::samples

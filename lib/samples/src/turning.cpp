@@ -10,30 +10,30 @@ namespace {
 
 using std::numbers::pi;
 
-struct BoltParams {
+struct BoltParameters {
   double diameter = 10, pitch = 1.5, turns = 4, clearance = 0.07;
   int segments = 64;
-  static void describe(Schema<BoltParams>& s) {
-    s.add("diameter", &BoltParams::diameter,
+  static void describe(Schema<BoltParameters>& s) {
+    s.add("diameter", &BoltParameters::diameter,
           {.unit = "mm", .min = 3, .max = 100, .doc = "Major diameter of the thread."});
-    s.add("pitch", &BoltParams::pitch,
+    s.add("pitch", &BoltParameters::pitch,
           {.unit = "mm",
            .min = 0.25,
            .max = 10,
            .doc = "Pitch of the right-handed, single-start thread; at most a quarter of `diameter`."});
-    s.add("turns", &BoltParams::turns,
+    s.add("turns", &BoltParameters::turns,
           {.unit = "1", .min = 0, .max = 50, .doc = "Turns until the nut begins to leave the bolt."});
-    s.add("clearance", &BoltParams::clearance,
+    s.add("clearance", &BoltParameters::clearance,
           {.unit = "mm",
            .min = 0.001,
            .max = 0.5,
            .doc = "Distance between the flanks of bolt and nut; at most a tenth of `pitch`."});
-    s.add("segments", &BoltParams::segments,
+    s.add("segments", &BoltParameters::segments,
           {.unit = "1", .min = 24, .max = 512, .doc = "Number of flat faces per full turn of a round surface."});
   }
 };
 
-Model bolt_and_nut(const BoltParams& p) {
+Model bolt_and_nut(const BoltParameters& p) {
   if (p.pitch > p.diameter / 4) throw std::invalid_argument("bolt_and_nut: pitch is more than a quarter of diameter");
   if (p.clearance > p.pitch / 10) throw std::invalid_argument("bolt_and_nut: clearance is more than a tenth of pitch");
   Model model;
@@ -74,15 +74,15 @@ Model bolt_and_nut(const BoltParams& p) {
   return model;
 }
 
-struct RingParams {
+struct RingParameters {
   double bend_radius = 30, diameter = 8, arc = 150, sleeve_arc = 40, clearance = 0.15;
   int segments = 32;
-  static void describe(Schema<RingParams>& s) {
-    s.add("bend_radius", &RingParams::bend_radius,
+  static void describe(Schema<RingParameters>& s) {
+    s.add("bend_radius", &RingParameters::bend_radius,
           {.unit = "mm", .min = 20, .max = 300, .doc = "Radius of the tube's centre line."});
-    s.add("diameter", &RingParams::diameter, {.unit = "mm", .min = 3, .max = 10, .doc = "Diameter of the tube."});
-    s.add("arc", &RingParams::arc, {.unit = "deg", .min = 90, .max = 150, .doc = "Angle that the tube spans."});
-    s.add("sleeve_arc", &RingParams::sleeve_arc,
+    s.add("diameter", &RingParameters::diameter, {.unit = "mm", .min = 3, .max = 10, .doc = "Diameter of the tube."});
+    s.add("arc", &RingParameters::arc, {.unit = "deg", .min = 90, .max = 150, .doc = "Angle that the tube spans."});
+    s.add("sleeve_arc", &RingParameters::sleeve_arc,
           {.unit = "deg", .min = 20, .max = 60, .doc = "Angle of the tube that the ring covers."});
     add_clearance(s, 0.001, 0.5);
     add_segments(s);
@@ -90,13 +90,13 @@ struct RingParams {
 };
 
 /// Adds sections from `from` to `to` (rad) at most 1.5 degrees apart.
-void tube(Loft& loft, const RingParams& p, double r, double from, double to) {
+void tube(Loft& loft, const RingParameters& p, double r, double from, double to) {
   const int pieces = static_cast<int>(std::ceil(std::abs(to - from) / (1.5 * pi / 180)));
   for (int i = 0; i <= pieces; ++i)
     loft.to(tube_section(p.bend_radius, r, from + (to - from) * i / pieces, p.segments));
 }
 
-Model ring_on_curved_tube(const RingParams& p) {
+Model ring_on_curved_tube(const RingParameters& p) {
   Model model;
   model.clearance = p.clearance;
   const double degree = pi / 180, arc = p.arc * degree, sleeve_arc = p.sleeve_arc * degree;
@@ -122,10 +122,10 @@ Model ring_on_curved_tube(const RingParams& p) {
 }  // namespace
 
 std::vector<Maker> turning_makers() {
-  return {maker<BoltParams>("bolt_and_nut", "A hexagon bolt and nut with a true ISO metric thread.", &bolt_and_nut,
-                            {.translation_only = false}),
-          maker<RingParams>("ring_on_curved_tube", "A ring that covers part of a bent tube.", &ring_on_curved_tube,
-                            {.translation_only = false})};
+  return {maker<BoltParameters>("bolt_and_nut", "A hexagon bolt and nut with a true ISO metric thread.", &bolt_and_nut,
+                                {.translation_only = false}),
+          maker<RingParameters>("ring_on_curved_tube", "A ring that covers part of a bent tube.", &ring_on_curved_tube,
+                                {.translation_only = false})};
 }
 
 }  // namespace dismantle::samples

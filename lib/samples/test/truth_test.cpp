@@ -201,14 +201,15 @@ void expect_blocked(const Model& model, const std::vector<Probe>& parts, const s
 TEST(Blocked, StraightPullsDoNotFreeWhatMustTurn) {
   struct Case {
     std::string sample, part;
-    double way;
+    double travel;
   };
   for (const Case& c : {Case{"bolt_and_nut", "nut", 2.0}, Case{"ring_on_curved_tube", "ring", 20.0},
                         Case{"threaded_legs", "leg_1", 4.0}}) {
     const Model model = make_model(c.sample);
     Rng rng(32);
     const auto parts = probes(model, rng, 1000, 2000);
-    for (const auto& d : directions()) expect_blocked(model, parts, {c.part}, {d, Eigen::Vector3d::Zero(), 0, c.way});
+    for (const auto& d : directions())
+      expect_blocked(model, parts, {c.part}, {d, Eigen::Vector3d::Zero(), 0, c.travel});
   }
 }
 

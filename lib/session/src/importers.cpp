@@ -4,7 +4,7 @@
 
 namespace dismantle {
 
-std::vector<std::shared_ptr<Importer>> importers_of(const Registry& registry, const ImportParams& params) {
+std::vector<std::shared_ptr<Importer>> importers_of(const Registry& registry, const ImportParameters& params) {
   for (const auto& [id, values] : params) registry.find(PluginKind::importer, id);
   std::vector<std::shared_ptr<Importer>> out;
   for (const RegisteredType* type : registry.types(PluginKind::importer)) {

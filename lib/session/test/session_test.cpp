@@ -19,17 +19,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct ScaledParams {
+struct ScaledParameters {
   double scale = 1;
-  static void describe(Schema<ScaledParams>& s) {
-    s.add("scale", &ScaledParams::scale, {.unit = "1", .min = 0, .min_open = true, .doc = "Factor on all lengths."});
+  static void describe(Schema<ScaledParameters>& s) {
+    s.add("scale", &ScaledParameters::scale,
+          {.unit = "1", .min = 0, .min_open = true, .doc = "Factor on all lengths."});
   }
 };
 
 /// Reads a file that holds the name of a sample.
 class ScaledSample final : public Importer {
  public:
-  explicit ScaledSample(const ScaledParams& params) : params_(params) {}
+  explicit ScaledSample(const ScaledParameters& params) : params_(params) {}
   std::vector<std::string> extensions() const override { return {"sample"}; }
   std::vector<RawPart> read(const fs::path& file, const RunContext&) override {
     std::ifstream in(file);
@@ -42,7 +43,7 @@ class ScaledSample final : public Importer {
   }
 
  private:
-  ScaledParams params_;
+  ScaledParameters params_;
 };
 
 class SessionTest : public ::testing::Test {
@@ -52,7 +53,7 @@ class SessionTest : public ::testing::Test {
     ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
     folder_ = pattern;
     Registrar registrar;
-    registrar.add<Importer, ScaledSample, ScaledParams>("test.scaled", "Samples by name.", {.source = "test"});
+    registrar.add<Importer, ScaledSample, ScaledParameters>("test.scaled", "Samples by name.", {.source = "test"});
     PluginFile file;
     file.path = __FILE__;
     file.id = "test.scaled";
@@ -128,9 +129,7 @@ TEST_F(SessionTest, SessionsAtTheSameTimePlanAsTheyDoAlone) {
 
 TEST_F(SessionTest, OneSessionServesTwoThreads) {
   const Session session({{}, kOneThread, {}});
-  const auto plan = [&](const std::string& name) {
-    return without_times(session.plan(sample(session, name)).plan);
-  };
+  const auto plan = [&](const std::string& name) { return without_times(session.plan(sample(session, name)).plan); };
   const std::string peg = plan("peg_in_hole"), slot = plan("l_slot");
   auto first = std::async(std::launch::async, plan, "peg_in_hole");
   auto second = std::async(std::launch::async, plan, "l_slot");
@@ -144,10 +143,11 @@ TEST_F(SessionTest, AJobShowsItsStepsAndStopsWhenItIsCancelled) {
   RunContext job = session.context();
   std::size_t events = 0, steps = 0;
   job.on_progress = [&](const ProgressEvent&) { ++events; };
-  const RunResult result = session.plan(loaded, job, {.on_step = [&](const Disassembly& so_far, const DisassemblyStep&) {
-                                          steps = so_far.steps().size();
-                                          if (steps == 2) job.cancel.cancel();
-                                        }});
+  const RunResult result =
+      session.plan(loaded, job, {.on_step = [&](const Disassembly& so_far, const DisassemblyStep&) {
+                     steps = so_far.steps().size();
+                     if (steps == 2) job.cancel.cancel();
+                   }});
   EXPECT_EQ(result.outcome, Outcome::cancelled);
   EXPECT_EQ(result.plan.disassembly.size(), steps);
   EXPECT_LT(result.plan.disassembly.size(), loaded.assembly->parts.size() - 1);
@@ -166,9 +166,8 @@ TEST_F(SessionTest, ConstraintsNeedAPlannerThatKeepsThem) {
   const fs::path config =
       write("config.yaml", "schema: 1\nsequence_planner: {type: progressive}\nconstraints: {target: peg}\n");
   const Session session({config, kOneThread, {}});
-  for (const std::string& text :
-       {message_of<Error>([&] { session.check(); }),
-        message_of<Error>([&] { session.plan(sample(session, "peg_in_hole")); })}) {
+  for (const std::string& text : {message_of<Error>([&] { session.check(); }),
+                                  message_of<Error>([&] { session.plan(sample(session, "peg_in_hole")); })}) {
     EXPECT_NE(text.find("'progressive' does not keep any"), std::string::npos) << text;
     EXPECT_NE(text.find("'blocking'"), std::string::npos) << text;
   }

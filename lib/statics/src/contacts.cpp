@@ -176,8 +176,8 @@ void add_edges(const PlacedShape& a, const PlacedShape& b, double gap, double si
     const ClosestPoint c = db.bvh.closest(at, gap);
     if (c.triangle == 0xffffffffu || db.normals[c.triangle].isZero()) continue;
     const Vec3& n = db.normals[c.triangle];
-    const bool above =
-        std::all_of(tip.ways.begin(), tip.ways.end(), [&](const Vec3& way) { return (to_b.q * way).dot(n) > -1e-3; });
+    const bool above = std::all_of(tip.directions.begin(), tip.directions.end(),
+                                   [&](const Vec3& direction) { return (to_b.q * direction).dot(n) > -1e-3; });
     if (above && inside_face(db, c.point, n, 4 * gap)) add(c.point, n);
   }
   for (const Ridge& r : da.ridges) {

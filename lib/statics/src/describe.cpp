@@ -14,9 +14,9 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 
 /// "+x", or the two largest of its axes, "+x and -z".
-std::string axis_text(const Vec3& way) {
+std::string axis_text(const Vec3& direction) {
   constexpr double kNoticed = 0.38;  // the sine of 22.5 degrees
-  const Vec3 unit = way.normalized();
+  const Vec3 unit = direction.normalized();
   std::string text;
   for (int k = 0; k < 3; ++k)
     if (std::abs(unit[k]) > kNoticed)

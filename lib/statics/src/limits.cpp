@@ -125,11 +125,11 @@ std::optional<LeastPush> least_push(const Pile& pile, std::uint32_t body, const 
   std::optional<LeastPush> least;
   Pile pushed = pile;
   for (int k = 0; k < 16; ++k) {
-    const Vec3 way = std::cos(k * M_PI / 8) * u + std::sin(k * M_PI / 8) * v;
+    const Vec3 direction = std::cos(k * M_PI / 8) * u + std::sin(k * M_PI / 8) * v;
     Motions motion;
     const auto probe = [&](double x) -> Probe {
       pushed.pushes = pile.pushes;
-      pushed.pushes.push_back({body, pile.bodies[body].center, x * way});
+      pushed.pushes.push_back({body, pile.bodies[body].center, x * direction});
       Balance found = balance(pushed, FrictionLaw::associated, stop);
       if (found.balanced) return {true, {}};
       motion = std::move(found.falling);
@@ -137,14 +137,14 @@ std::optional<LeastPush> least_push(const Pile& pile, std::uint32_t body, const 
       // The weights resist the motion by -weights, the push drives it by its force times forward.
       double weights = work(pile, motion, pile.down);
       for (const Push& p : pile.pushes) weights += motion[p.body].at(p.at - pile.bodies[p.body].center).dot(p.force);
-      const double forward = motion[body].v.dot(way);
+      const double forward = motion[body].v.dot(direction);
       return {false, forward > 0 ? std::optional(std::max(0.0, -weights / forward)) : std::nullopt};
     };
     // A few weights move most bodies; what they do not move takes longer to judge.
     for (const double most : {std::min(total, known), known}) {
       const double force = largest_balanced(most, probe, stop);
       if (force < most) {
-        least = {body, force, way, std::move(motion)};
+        least = {body, force, direction, std::move(motion)};
         known = force;
       }
       if (force < most || most == known) break;

@@ -30,7 +30,7 @@ void measure(Shape::Data& d) {
 }
 
 void find_ridges(Shape::Data& d) {
-  std::vector<std::vector<Vec3>> ways(d.mesh.vertices.size());
+  std::vector<std::vector<Vec3>> directions(d.mesh.vertices.size());
   const auto edges = mesh_detail::sorted_edges(d.mesh);
   mesh_detail::for_each_edge(edges, [&](const mesh_detail::EdgeRef* first, const mesh_detail::EdgeRef* last) {
     if (last - first != 2) return;
@@ -38,14 +38,14 @@ void find_ridges(Shape::Data& d) {
     const Vec3 left = d.normals[first->triangle], right = d.normals[first[1].triangle];
     const double length = (b - a).norm();
     if (length == 0 || left.isZero() || right.isZero() || left.dot(right) > kBent) return;
-    ways[first->lo].push_back((b - a) / length);
-    ways[first->hi].push_back((a - b) / length);
+    directions[first->lo].push_back((b - a) / length);
+    directions[first->hi].push_back((a - b) / length);
     // Outward bend: the next face lies below the plane of this one.
     const Vec3 along = first->forward ? Vec3(b - a) : Vec3(a - b);
     if (left.cross(right).dot(along) > 0) d.ridges.push_back({a, b, left, right});
   });
-  for (std::size_t v = 0; v < ways.size(); ++v)
-    if (ways[v].size() >= 3) d.tips.push_back({d.mesh.vertices[v], std::move(ways[v])});
+  for (std::size_t v = 0; v < directions.size(); ++v)
+    if (directions[v].size() >= 3) d.tips.push_back({d.mesh.vertices[v], std::move(directions[v])});
 }
 
 }  // namespace

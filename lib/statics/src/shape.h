@@ -18,7 +18,7 @@ struct Ridge {
 /// A corner of the surface, and the edges that leave it.
 struct Tip {
   Eigen::Vector3d at;
-  std::vector<Eigen::Vector3d> ways;  ///< unit; to its neighbours
+  std::vector<Eigen::Vector3d> directions;  ///< unit; to its neighbours
 };
 
 struct Shape::Data {

@@ -146,15 +146,15 @@ Vec3 Springs::law_of(const Point& p, const Vec3& d, bool coupled, Mat3* resistan
 }
 
 double Springs::step_length(const VectorXd& anchor, const VectorXd& direction) const {
-  std::vector<Vec3> from, way;
+  std::vector<Vec3> from, displacement;
   each_point(x_, [&](const Pair&, std::size_t, const Vec3& d) { from.push_back(d); });
-  each_point(direction, [&](const Pair&, std::size_t, const Vec3& d) { way.push_back(d); });
+  each_point(direction, [&](const Pair&, std::size_t, const Vec3& d) { displacement.push_back(d); });
   const double constant = (proximal_ * (x_ - anchor) - load_).dot(direction),
                linear = proximal_ * direction.squaredNorm();
   const auto slope = [&](double t) {
     double sum = constant + t * linear;
     for (std::size_t k = 0; k < points_.size(); ++k)
-      sum -= points_[k].stiffness * law_of(points_[k], from[k] + t * way[k]).dot(way[k]);
+      sum -= points_[k].stiffness * law_of(points_[k], from[k] + t * displacement[k]).dot(displacement[k]);
     return sum;
   };
   // The slope increases: a zero is enclosed, and the enclosure made smaller (Illinois).

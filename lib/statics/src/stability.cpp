@@ -53,8 +53,8 @@ std::vector<PartMove> moves_of(const Pile& pile, const Motions& motion, std::siz
     const Motion& m = motion[i];
     if (!(m.v.norm() + m.w.norm() * pile.bodies[i].radius > 1e-3 * most)) continue;
     // A part that turns about its centre: the way of its upper end.
-    const Vec3 way = m.v.norm() > 1e-3 * m.w.norm() * pile.bodies[i].radius ? m.v : Vec3(m.w.cross(-pile.down));
-    if (way.norm() > 0) moves.push_back({static_cast<PartId>(i), way.normalized()});
+    const Vec3 direction = m.v.norm() > 1e-3 * m.w.norm() * pile.bodies[i].radius ? m.v : Vec3(m.w.cross(-pile.down));
+    if (direction.norm() > 0) moves.push_back({static_cast<PartId>(i), direction.normalized()});
   }
   return moves;
 }

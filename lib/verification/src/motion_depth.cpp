@@ -36,7 +36,7 @@ struct MotionDepthMeter::Impl {
   }
 
   /// Measures one moving part past one fixed part. Raises `worst`. Returns false when the result is not proved.
-  bool pair(PartId part, const std::vector<Pose>& way, const PlacedPart& other, const MotionDepthOptions& options,
+  bool pair(PartId part, const std::vector<Pose>& poses, const PlacedPart& other, const MotionDepthOptions& options,
             const RunContext& context, double allowed, std::optional<MotionDepth>& worst) {
     const Aabb& box = assembly.parts.at(part).mesh->box();
     const Eigen::Vector3d center = box.center();
@@ -46,9 +46,9 @@ struct MotionDepthMeter::Impl {
       return std::max(options.absolute, options.relative * depth);
     };
     const auto pose_at = [&](double u) {
-      const double k = std::min(std::floor(u), static_cast<double>(way.size() - 2));
+      const double k = std::min(std::floor(u), static_cast<double>(poses.size() - 2));
       const auto i = static_cast<std::size_t>(k);
-      return screw_interpolate(way[i], way[i + 1], u - k);
+      return screw_interpolate(poses[i], poses[i + 1], u - k);
     };
     const Aabb fixed_box = assembly.parts.at(other.part).mesh->box();
     const geometry::SweptBoxes there({other.pose}, fixed_box);
@@ -75,7 +75,7 @@ struct MotionDepthMeter::Impl {
     Sample before = measure(0);
     std::uint64_t measured = 1;
     if (is_settled(options.at_most - allowed)) return true;
-    for (std::size_t k = 1; k < way.size(); ++k) {
+    for (std::size_t k = 1; k < poses.size(); ++k) {
       const Interval whole{{static_cast<double>(k - 1), 0}, {static_cast<double>(k), 0}, 0, 0};
       if (!meets(whole)) {
         before = {static_cast<double>(k), 0};
@@ -119,16 +119,16 @@ std::optional<MotionDepth> MotionDepthMeter::deepest(const std::vector<PartId>& 
   std::optional<MotionDepth> worst;
   bool proved = true;
   for (std::size_t i = 0; i < moving.size(); ++i) {
-    std::vector<Pose> way;
-    for (const auto& instant : path) way.push_back(instant[i]);
-    const geometry::SweptBoxes swept(way, impl_->assembly.parts.at(moving[i]).mesh->box());
+    std::vector<Pose> poses;
+    for (const auto& instant : path) poses.push_back(instant[i]);
+    const geometry::SweptBoxes swept(poses, impl_->assembly.parts.at(moving[i]).mesh->box());
     for (const PlacedPart& other : fixed) {
       if (!swept.meets(geometry::SweptBoxes({other.pose}, impl_->assembly.parts.at(other.part).mesh->box()), 0))
         continue;
       if (context.should_stop()) return worst ? worst : std::nullopt;
-      if (!valid_ones && !options.known_invalid && impl_->verifier.passes(moving[i], other.part, other.pose, way))
+      if (!valid_ones && !options.known_invalid && impl_->verifier.passes(moving[i], other.part, other.pose, poses))
         continue;
-      proved = impl_->pair(moving[i], way, other, options, context,
+      proved = impl_->pair(moving[i], poses, other, options, context,
                            valid_ones ? 0 : impl_->assembly.initial_overlap(moving[i], other.part), worst) &&
                proved;
       if (worst && worst->excess() > options.stop_above) return worst;

@@ -28,20 +28,20 @@ class CheckPlan : public ::testing::Test {
   }
 
   /// A straight path from pose `from`, with 0.09 assembly units between poses.
-  std::vector<Pose> poses(const Vec3& way, const Pose& from = {}, int count = 0) const {
+  std::vector<Pose> poses(const Vec3& path, const Pose& from = {}, int count = 0) const {
     std::vector<Pose> out;
-    const int n = count > 0 ? count : std::max(1, static_cast<int>(std::ceil(way.norm() / 0.09)));
-    for (int i = 0; i <= n; ++i) out.push_back(assembly_.normalization.pose_to_input({from.t + way * i / n, from.q}));
+    const int n = count > 0 ? count : std::max(1, static_cast<int>(std::ceil(path.norm() / 0.09)));
+    for (int i = 0; i <= n; ++i) out.push_back(assembly_.normalization.pose_to_input({from.t + path * i / n, from.q}));
     return out;
   }
-  PlanStep slide(unsigned number, const std::vector<std::string>& names, const std::vector<Vec3>& ways,
+  PlanStep slide(unsigned number, const std::vector<std::string>& names, const std::vector<Vec3>& paths,
                  std::vector<std::vector<std::string>> separates) const {
     double longest = 0;
-    for (const auto& w : ways) longest = std::max(longest, w.norm());
+    for (const auto& w : paths) longest = std::max(longest, w.norm());
     PlanStep step;
     step.step = number;
     for (std::size_t i = 0; i < names.size(); ++i)
-      step.moves.push_back({names[i], poses(ways[i], {}, std::max(1, static_cast<int>(std::ceil(longest / 0.09))))});
+      step.moves.push_back({names[i], poses(paths[i], {}, std::max(1, static_cast<int>(std::ceil(longest / 0.09))))});
     step.separates = std::move(separates);
     return step;
   }
@@ -269,10 +269,10 @@ TEST_F(CheckPlan, WhatLiesInTheLayoutIsInTheWay) {
   const auto bring = [&](std::size_t step, const Vec3& from) {  // straight to the start of the insertion
     auto& back = plan_.assembly_steps[step];
     const Pose start = assembly_.normalization.pose_to_internal(back.moves[0].poses.front());
-    std::vector<Pose> way = poses(start.t - from, shift(from));
-    way.pop_back();
-    back.transfer = way.size();
-    back.moves[0].poses.insert(back.moves[0].poses.begin(), way.begin(), way.end());
+    std::vector<Pose> path = poses(start.t - from, shift(from));
+    path.pop_back();
+    back.transfer = path.size();
+    back.moves[0].poses.insert(back.moves[0].poses.begin(), path.begin(), path.end());
   };
   const Plan bare = plan_;
   const Vec3 first = bare_goal(0) + Vec3(0, 40, 0), second = bare_goal(1) + Vec3(0, -40, 0);

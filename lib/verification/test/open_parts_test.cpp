@@ -31,15 +31,15 @@ Assembly pair_of(const Mesh& a, const Mesh& b, double depth = 0) {
   return made;
 }
 
-bool passes(const Verifier& verifier, const std::vector<Vec3>& way) {
+bool passes(const Verifier& verifier, const std::vector<Vec3>& displacement) {
   Path path{{Pose{}}};
-  for (const Vec3& t : way) path.push_back({shapes::shift(t)});
+  for (const Vec3& t : displacement) path.push_back({shapes::shift(t)});
   return verifier.check_motion({0}, {{1, Pose{}}}, path).valid;
 }
 
 TEST(OpenParts, LeaveThroughTheOpeningAndNotThroughTheWall) {
-  for (const Mesh& mover : {shapes::box({-2, -2, 0}, {2, 2, 2}), shapes::box({-1, -1, 0}, {1, 1, 5}), sheet(1.9, 0.02),
-                            sheet(1, 1)}) {
+  for (const Mesh& mover :
+       {shapes::box({-2, -2, 0}, {2, 2, 2}), shapes::box({-1, -1, 0}, {1, 1, 5}), sheet(1.9, 0.02), sheet(1, 1)}) {
     const Verifier verifier(pair_of(mover, cup()), {kAllowed});
     EXPECT_TRUE(passes(verifier, {{0, 0, 8}}));
     EXPECT_FALSE(passes(verifier, {{0, 0, -8}}));
@@ -51,9 +51,9 @@ TEST(OpenParts, LeaveThroughTheOpeningAndNotThroughTheWall) {
 
 TEST(OpenParts, SheetsInContactOnBothSidesSlide) {
   // A slot whose walls touch the sheet on both sides.
-  const Verifier verifier(pair_of(sheet(1, 1), shapes::joined(shapes::box({-2, -2, 0}, {2, 2, 1}),
-                                                              shapes::box({-2, -2, 1}, {2, 2, 2}))),
-                          {kAllowed});
+  const Verifier verifier(
+      pair_of(sheet(1, 1), shapes::joined(shapes::box({-2, -2, 0}, {2, 2, 1}), shapes::box({-2, -2, 1}, {2, 2, 2}))),
+      {kAllowed});
   EXPECT_TRUE(passes(verifier, {{5, 0, 0}}));
   EXPECT_FALSE(passes(verifier, {{0, 0, 5}}));
 }
@@ -69,7 +69,8 @@ TEST(OpenParts, DoNotCreepThroughAWallInSmallSteps) {
 TEST(OpenParts, AreAsDeepAsTheSmallestDisplacementThatFreesThem) {
   const double tolerance = 1e-4;
   for (const double depth : {0.002, 0.03, 0.4}) {
-    // A block sunk into the floor of a cup; its vertices move along the diagonal of its corners, so up to sqrt(3) times.
+    // A block sunk into the floor of a cup; its vertices move along the diagonal of its corners, so up to sqrt(3)
+    // times.
     const Mesh block = shapes::box({-1, -1, -depth}, {1, 1, 2}), plate = sheet(1, 0);
     const double found = penetration_depth(block, Pose{}, cup(), Pose{}, tolerance);
     EXPECT_GE(found, depth - tolerance);

@@ -21,17 +21,17 @@ double reached(const Assembly& assembly, const Path& path) {
 TEST(ValidStretch, ACubeComesToTheWall) {
   Rng rng(3);
   for (int i = 0; i < 8; ++i) {
-    const double gap = rng.uniform(0.1, 4), wall = rng.uniform(0.5, 1.5), way = gap + wall + 3;
+    const double gap = rng.uniform(0.1, 4), wall = rng.uniform(0.5, 1.5), displacement = gap + wall + 3;
     const Pose world = shapes::random_pose(rng, 2);
     const Assembly assembly =
         shapes::assembly_of({shapes::moved(shapes::box({-1, -1, -1}, {0, 1, 1}), world),
                              shapes::moved(shapes::box({gap, -3, -3}, {gap + wall, 3, 3}), world)});
     const auto along = [&](double x) { return std::vector<Pose>{shift(world.q * Vec3(x, 0, 0))}; };
-    const double straight = reached(assembly, {along(0), along(way)}) * way;
+    const double straight = reached(assembly, {along(0), along(displacement)}) * displacement;
     EXPECT_NEAR(straight, gap, 2.1 * kOptions.max_penetration) << "gap " << gap;
     // Instants in between change nothing.
-    const double first = rng.uniform(0.1, way), second = rng.uniform(first, way);
-    const Path path{along(0), along(first), along(second), along(way)};
+    const double first = rng.uniform(0.1, displacement), second = rng.uniform(first, displacement);
+    const Path path{along(0), along(first), along(second), along(displacement)};
     const double place = reached(assembly, path);
     EXPECT_NEAR((instant_at(path, place)[0].t).norm(), gap, 2.1 * kOptions.max_penetration) << "gap " << gap;
   }

@@ -68,9 +68,9 @@ TEST(Verifier, AWayEndsWhereTheHullsComeApart) {
     std::vector<Aabb> boxes;
     for (const Mesh& mesh : meshes) boxes.push_back(mesh.box());
     const Vec3 d = trial % 3 == 0 ? Vec3(Vec3::Unit(trial % 9 / 3)) : Vec3(random_vector(rng, -1, 1).normalized());
-    const auto apart_after = [&](double way) {
+    const auto apart_after = [&](double travel) {
       std::vector<PlacedPart> moved = group;
-      for (auto& p : moved) p.pose.t += way * d;
+      for (auto& p : moved) p.pose.t += travel * d;
       return verifier.apart(moved, rest);
     };
     constexpr double kMost = 20;
@@ -81,10 +81,10 @@ TEST(Verifier, AWayEndsWhereTheHullsComeApart) {
         placed.push_back({&meshes[p.part], &boxes[p.part], &verifier.hull(p.part), p.pose});
       return placed;
     };
-    const double way = geometry::HullsApart(hulls(group), hulls(rest)).distance(d, kMost, kHalvings);
-    EXPECT_TRUE(apart_after(way));
-    if (const double before = way - 1.5 * kMost / (1 << kHalvings); before > 0) {
-      EXPECT_FALSE(apart_after(before)) << way;
+    const double travel = geometry::HullsApart(hulls(group), hulls(rest)).distance(d, kMost, kHalvings);
+    EXPECT_TRUE(apart_after(travel));
+    if (const double before = travel - 1.5 * kMost / (1 << kHalvings); before > 0) {
+      EXPECT_FALSE(apart_after(before)) << travel;
       ++found;
     }
     // By all vertices: no plane across the path separates them earlier.
@@ -93,7 +93,7 @@ TEST(Verifier, AWayEndsWhereTheHullsComeApart) {
       for (const auto& v : meshes[p.part].vertices) top = std::max(top, -d.dot(p.pose * v));
     for (const auto& p : rest)
       for (const auto& v : meshes[p.part].vertices) bottom = std::min(bottom, -d.dot(p.pose * v));
-    EXPECT_LE(way, std::max(0.0, top - bottom) + 2 * kMost / (1 << kHalvings));
+    EXPECT_LE(travel, std::max(0.0, top - bottom) + 2 * kMost / (1 << kHalvings));
   }
   EXPECT_GT(found, 40);
   const Aabb box = kCube.box();
@@ -112,14 +112,14 @@ TEST(Verifier, KissingSlideIsOneCheapSweep) {
   shapes::append(block, shapes::box({-9, -9, -9}, {-8, -8, -8}));
   // A square tube around the peg.
   Mesh tube = shapes::tube(std::numbers::sqrt2, 3, -3, 3, 4, 1, std::numbers::pi / 4);
-  const Vec3 way = world.q * Vec3(0, 0, 10);
-  const MotionCheck c = check(shapes::moved(peg, world), shapes::moved(tube, world), {Pose{}, shift(way)});
+  const Vec3 travel = world.q * Vec3(0, 0, 10);
+  const MotionCheck c = check(shapes::moved(peg, world), shapes::moved(tube, world), {Pose{}, shift(travel)});
   EXPECT_TRUE(c.valid);
   EXPECT_LE(c.max_penetration, 1e-4);
   EXPECT_LE(c.tests, 3 * (peg.triangles.size() + tube.triangles.size()));
   // The same with a hundred poses with small deviations.
   std::vector<Pose> poses;
-  for (int i = 0; i <= 100; ++i) poses.push_back(shift(way * i / 100 + random_vector(rng, -1e-5, 1e-5)));
+  for (int i = 0; i <= 100; ++i) poses.push_back(shift(travel * i / 100 + random_vector(rng, -1e-5, 1e-5)));
   const MotionCheck many = check(shapes::moved(peg, world), shapes::moved(tube, world), poses);
   EXPECT_TRUE(many.valid);
   EXPECT_LE(many.max_penetration, 2e-4);
@@ -176,10 +176,10 @@ TEST(Verifier, PlateInAClosedBoxNeverGetsOut) {
   for (const double wall : {0.03, 0.003}) {
     const Mesh house = shapes::closed_box({-1.5, -1.5, -1.5}, {1.5, 1.5, 1.5}, wall);
     EXPECT_TRUE(check(plate, house, {Pose{}, shift({0, 0, 1})}).valid) << wall;
-    for (const Vec3& way : {Vec3(0, 0, 4), Vec3(4, 0, 0), Vec3(3, 3, 1)}) {
-      EXPECT_FALSE(check(plate, house, {Pose{}, shift(way)}).valid) << wall;
+    for (const Vec3& travel : {Vec3(0, 0, 4), Vec3(4, 0, 0), Vec3(3, 3, 1)}) {
+      EXPECT_FALSE(check(plate, house, {Pose{}, shift(travel)}).valid) << wall;
       std::vector<Pose> slowly;  // in steps that are shorter than the wall
-      for (int i = 0; i <= 2000; ++i) slowly.push_back(shift(way * i / 2000));
+      for (int i = 0; i <= 2000; ++i) slowly.push_back(shift(travel * i / 2000));
       EXPECT_FALSE(check(plate, house, slowly).valid) << wall;
     }
   }

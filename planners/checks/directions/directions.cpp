@@ -26,13 +26,13 @@ std::pair<double, const char*> dislike(const Vector3d& direction, const Vector3d
 
 }  // namespace
 
-void DirectionsParams::describe(Schema<DirectionsParams>& s) {
-  s.add("angle", &DirectionsParams::angle,
+void DirectionsParameters::describe(Schema<DirectionsParameters>& s) {
+  s.add("angle", &DirectionsParameters::angle,
         {.unit = "rad",
          .min = 0,
          .max = std::numbers::pi,
          .doc = "Directions of insertion that differ by no more than this count as the same."});
-  s.add("preference", &DirectionsParams::preference,
+  s.add("preference", &DirectionsParameters::preference,
         {.unit = "1",
          .min = 0,
          .doc = "Cost of a direction along no main axis; from below two thirds of it, from the side one third, from "

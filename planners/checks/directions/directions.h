@@ -6,10 +6,10 @@
 
 namespace dismantle::checks {
 
-struct DirectionsParams {
+struct DirectionsParameters {
   double angle = 0.1;
   double preference = 0;
-  static void describe(Schema<DirectionsParams>& s);
+  static void describe(Schema<DirectionsParameters>& s);
 };
 
 /// Costs 1 when parts are put in along another direction than in the operation before; and `preference` times 1 along
@@ -17,14 +17,14 @@ struct DirectionsParams {
 /// nothing.
 class Directions final : public StepCheck {
  public:
-  explicit Directions(const DirectionsParams& params = {}) : params_(params) {}
+  explicit Directions(const DirectionsParameters& params = {}) : params_(params) {}
   StepCheckTraits traits() const noexcept override {
     return {.remembers_direction = true, .reads_present = false, .reads_path = false};
   }
   StepVerdict judge(const StepQuestion& question, const RunContext& context) const override;
 
  private:
-  DirectionsParams params_;
+  DirectionsParameters params_;
 };
 
 }  // namespace dismantle::checks

@@ -44,24 +44,24 @@ double rounded(double value) {
 
 }  // namespace
 
-void GravityParams::describe(Schema<GravityParams>& s) {
-  s.add("fixed", &GravityParams::fixed,
+void GravityParameters::describe(Schema<GravityParameters>& s) {
+  s.add("fixed", &GravityParameters::fixed,
         {.doc = "Parts that a fixture holds all the time: names or patterns with * and ?, with commas between them."});
-  s.add("hands", &GravityParams::hands,
+  s.add("hands", &GravityParameters::hands,
         {.unit = "1",
          .min = 1,
          .max = 100,
          .doc = "Hands that there are, the one with the part that is put in included. A step that needs more is not "
                 "allowed, and the plan asks for a fixture."});
-  s.add("friction", &GravityParams::friction,
+  s.add("friction", &GravityParameters::friction,
         {.unit = "1", .min = 0, .max = 10, .doc = "Coefficient of Coulomb friction of all contacts."});
-  s.add("density", &GravityParams::density,
+  s.add("density", &GravityParameters::density,
         {.doc = "Densities in g/cm3 as NAME=VALUE with commas between them; names as in `fixed`. Other parts have that "
                 "of their file, or 1."});
-  s.advanced("most_parts", &GravityParams::most_parts, {1, 100000});
+  s.advanced("most_parts", &GravityParameters::most_parts, {1, 100000});
 }
 
-Gravity::Gravity(const GravityParams& params)
+Gravity::Gravity(const GravityParameters& params)
     : params_(params), model_(params.fixed, params.friction, params.density) {}
 
 std::shared_ptr<Gravity::Scene> Gravity::scene_of(const Assembly& assembly) const {

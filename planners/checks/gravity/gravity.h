@@ -19,13 +19,13 @@
 
 namespace dismantle::checks {
 
-struct GravityParams {
+struct GravityParameters {
   std::string fixed{};
   std::int64_t hands = 2;
   double friction = 0.4;
   std::string density{};
   std::int64_t most_parts = 150;
-  static void describe(Schema<GravityParams>& schema);
+  static void describe(Schema<GravityParameters>& schema);
 };
 
 /// Costs the number of parts that somebody has to hold, besides the one in hand. A question is answered to the end,
@@ -33,7 +33,7 @@ struct GravityParams {
 class Gravity final : public StepCheck {
  public:
   /// @throws std::invalid_argument for a density that cannot be read.
-  explicit Gravity(const GravityParams& params = {});
+  explicit Gravity(const GravityParameters& params = {});
   StepCheckTraits traits() const noexcept override {
     return {.remembers_orientation = true, .judges_plan = true, .reads_path = false, .estimates = true};
   }
@@ -73,7 +73,7 @@ class Gravity final : public StepCheck {
                                              const State& turned, double gap);
   State while_put_in(Scene& scene, const StepQuestion& question) const;
 
-  GravityParams params_;
+  GravityParameters params_;
   statics::StatedModel model_;
   mutable std::mutex mutex_;
   mutable std::shared_ptr<Scene> scene_;  // of the assembly that was asked about last

@@ -11,12 +11,12 @@ namespace dismantle::checks {
 
 namespace {
 
-constexpr double kSameWay = 0.995;  // cosine of 6 degrees, as the check `directions`
+constexpr double kSameDirection = 0.995;  // cosine of 6 degrees, as the check `directions`
 
 }  // namespace
 
-void IdenticalPartsParams::describe(Schema<IdenticalPartsParams>& s) {
-  s.add("another_way", &IdenticalPartsParams::another_way,
+void IdenticalPartsParameters::describe(Schema<IdenticalPartsParameters>& s) {
+  s.add("another_way", &IdenticalPartsParameters::another_way,
         {.unit = "1",
          .min = 0,
          .doc = "Cost of an equal part that goes in along another direction than the one before."});
@@ -59,9 +59,10 @@ StepVerdict IdenticalParts::judge(const StepQuestion& question, const RunContext
   const std::vector<std::size_t> now = shapes->of(question.moving), present = shapes->of(question.present);
   const std::string& name = question.assembly.parts[question.moving.front().part].name;
   if (now == shapes->of(question.previous->moving)) {
-    const Eigen::Vector3d &way = question.direction, &before = question.previous->direction;
-    if (params_.another_way == 0 || way.isZero() || before.isZero() || way.dot(before) > kSameWay ||
-        shapes->seen_from(question.moving, way).dot(shapes->seen_from(question.previous->moving, before)) > kSameWay)
+    const Eigen::Vector3d &direction = question.direction, &before = question.previous->direction;
+    if (params_.another_way == 0 || direction.isZero() || before.isZero() || direction.dot(before) > kSameDirection ||
+        shapes->seen_from(question.moving, direction).dot(shapes->seen_from(question.previous->moving, before)) >
+            kSameDirection)
       return verdict;
     verdict.cost = params_.another_way;
     verdict.reason = fmt::format("'{}' goes in along another direction than the equal part before it", name);

@@ -14,9 +14,9 @@
 
 namespace dismantle::checks {
 
-struct IdenticalPartsParams {
+struct IdenticalPartsParameters {
   double another_way = 0;
-  static void describe(Schema<IdenticalPartsParams>& s);
+  static void describe(Schema<IdenticalPartsParameters>& s);
 };
 
 /// Costs 1 when an equal part, or group of parts, is in place already and the operation before put in something else.
@@ -25,7 +25,7 @@ struct IdenticalPartsParams {
 /// world, nor the same as seen from the parts.
 class IdenticalParts final : public StepCheck {
  public:
-  explicit IdenticalParts(const IdenticalPartsParams& params = {}) : params_(params) {}
+  explicit IdenticalParts(const IdenticalPartsParameters& params = {}) : params_(params) {}
   StepCheckTraits traits() const noexcept override {
     return {.remembers_direction = params_.another_way > 0, .remembers_shape = true, .reads_path = false};
   }
@@ -44,7 +44,7 @@ class IdenticalParts final : public StepCheck {
   };
   std::shared_ptr<const Shapes> shapes_of(const Assembly& assembly) const;
 
-  IdenticalPartsParams params_;
+  IdenticalPartsParameters params_;
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const Shapes> known_;  // of the assembly that was asked about last
 };

@@ -7,8 +7,8 @@
 
 namespace dismantle::checks {
 
-void ReorientationsParams::describe(Schema<ReorientationsParams>& s) {
-  s.add("angle", &ReorientationsParams::angle,
+void ReorientationsParameters::describe(Schema<ReorientationsParameters>& s) {
+  s.add("angle", &ReorientationsParameters::angle,
         {.unit = "rad",
          .min = 0,
          .max = std::numbers::pi,
@@ -24,10 +24,10 @@ StepVerdict Reorientations::judge(const StepQuestion& question, const RunContext
   const double degrees = angle * 180 / std::numbers::pi;
   verdict.cost = 1;
   verdict.reason = fmt::format("the assembly lies {:.0f} degrees from where it lay in the step before", degrees);
-  verdict.notes.push_back({"reorientations",
-                           degrees > 135 ? "Turn the assembly over."
-                                         : fmt::format("Turn the assembly by {:.0f} degrees.", degrees),
-                           fmt::format("{{\"up\": [{}, {}, {}]}}", now.x(), now.y(), now.z())});
+  verdict.notes.push_back(
+      {"reorientations",
+       degrees > 135 ? "Turn the assembly over." : fmt::format("Turn the assembly by {:.0f} degrees.", degrees),
+       fmt::format("{{\"up\": [{}, {}, {}]}}", now.x(), now.y(), now.z())});
   return verdict;
 }
 

@@ -63,14 +63,14 @@ bool is_obstructed(const StepQuestion& question, const geometry::PartBoxes& boxe
 
 }  // namespace
 
-void TimeParams::describe(Schema<TimeParams>& s) {
-  s.add("table", &TimeParams::table,
+void TimeParameters::describe(Schema<TimeParameters>& s) {
+  s.add("table", &TimeParameters::table,
         {.doc = "Seconds of a step of your own, instead of the published ones, as WHAT=SECONDS with commas between "
                 "them; WHAT "
                 "is a kind of part, or the name of one with * and ?. The first one that fits counts."});
 }
 
-Time::Time(const TimeParams& params) {
+Time::Time(const TimeParameters& params) {
   std::istringstream words(params.table);
   for (std::string word; std::getline(words, word, ',');) {
     word.erase(0, word.find_first_not_of(' '));

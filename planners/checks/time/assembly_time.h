@@ -18,9 +18,9 @@
 
 namespace dismantle::checks {
 
-struct TimeParams {
+struct TimeParameters {
   std::string table{};
-  static void describe(Schema<TimeParams>& s);
+  static void describe(Schema<TimeParameters>& s);
 };
 
 /// Costs the seconds that a step takes by hand, turning the whole included, and says them in a note; the plan's note
@@ -28,7 +28,7 @@ struct TimeParams {
 class Time final : public StepCheck {
  public:
   /// @throws std::invalid_argument for a table that cannot be read.
-  explicit Time(const TimeParams& params = {});
+  explicit Time(const TimeParameters& params = {});
   StepCheckTraits traits() const noexcept override {
     return {.remembers_orientation = true, .judges_plan = true, .reads_path = false, .estimates = true};
   }

@@ -23,7 +23,7 @@ std::vector<std::string> listed(const std::string& text) {
 }
 
 /// `left_out` receives the tools that `only` does not name.
-std::vector<tools::Tool> chosen(const ToolAccessParams& params, std::vector<tools::Tool>& left_out) {
+std::vector<tools::Tool> chosen(const ToolAccessParameters& params, std::vector<tools::Tool>& left_out) {
   std::vector<tools::Tool> all;
   std::vector<Diagnostic> problems;
   for (const std::string& file : listed(params.catalogue))
@@ -49,14 +49,15 @@ std::vector<tools::Tool> chosen(const ToolAccessParams& params, std::vector<tool
 
 }  // namespace
 
-void ToolAccessParams::describe(Schema<ToolAccessParams>& s) {
-  s.add("catalogue", &ToolAccessParams::catalogue,
+void ToolAccessParameters::describe(Schema<ToolAccessParameters>& s) {
+  s.add("catalogue", &ToolAccessParameters::catalogue,
         {.doc = "Files with tools, separated by commas (docs/tools.md). Empty: the tools that come with the program."});
-  s.add("only", &ToolAccessParams::only, {.doc = "Ids of the tools that there are, separated by commas. Empty: all."});
-  s.add("hand", &ToolAccessParams::hand, {.doc = "The hand that holds the tool needs room, too."});
+  s.add("only", &ToolAccessParameters::only,
+        {.doc = "Ids of the tools that there are, separated by commas. Empty: all."});
+  s.add("hand", &ToolAccessParameters::hand, {.doc = "The hand that holds the tool needs room, too."});
 }
 
-ToolAccess::ToolAccess(const ToolAccessParams& params) : params_(params), own_(chosen(params, left_out_)) {}
+ToolAccess::ToolAccess(const ToolAccessParameters& params) : params_(params), own_(chosen(params, left_out_)) {}
 ToolAccess::~ToolAccess() = default;
 
 const std::vector<tools::Tool>& ToolAccess::tools() const { return own_.empty() ? tools::standard_catalogue() : own_; }

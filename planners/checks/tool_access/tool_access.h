@@ -14,11 +14,11 @@ namespace dismantle::checks {
 
 class FastenerMemo;
 
-struct ToolAccessParams {
+struct ToolAccessParameters {
   std::string catalogue{};
   std::string only{};
   bool hand = true;
-  static void describe(Schema<ToolAccessParams>& s);
+  static void describe(Schema<ToolAccessParameters>& s);
 };
 
 /// Costs 1 for each fastener that no tool of the catalogue reaches, and 0.1 for a change of the tool. Notes name the
@@ -26,7 +26,7 @@ struct ToolAccessParams {
 class ToolAccess final : public StepCheck {
  public:
   /// @throws ConfigError, InputError for a catalogue that cannot be used.
-  explicit ToolAccess(const ToolAccessParams& params = {});
+  explicit ToolAccess(const ToolAccessParameters& params = {});
   ~ToolAccess() override;
   StepCheckTraits traits() const noexcept override { return {.remembers_shape = true, .reads_path = false}; }
   StepVerdict judge(const StepQuestion& question, const RunContext& context) const override;
@@ -35,7 +35,7 @@ class ToolAccess final : public StepCheck {
   const std::vector<tools::Tool>& tools() const;
   std::shared_ptr<const FastenerMemo> memo_of(const Assembly& assembly) const;
 
-  ToolAccessParams params_;
+  ToolAccessParameters params_;
   std::vector<tools::Tool>
       left_out_{};                // tools of the catalogue that `only` does not name; before `own_`, which fills it
   std::vector<tools::Tool> own_;  // empty: the standard catalogue

@@ -42,8 +42,8 @@ std::vector<Eigen::Vector3d> points_of(const Mesh& mesh) {
 
 }  // namespace
 
-void TravelParams::describe(Schema<TravelParams>& s) {
-  s.add("gap", &TravelParams::gap,
+void TravelParameters::describe(Schema<TravelParameters>& s) {
+  s.add("gap", &TravelParameters::gap,
         {.unit = "1",
          .min = 0,
          .max = 1,

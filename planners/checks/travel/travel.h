@@ -15,16 +15,16 @@
 
 namespace dismantle::checks {
 
-struct TravelParams {
+struct TravelParameters {
   double gap = 0.02;
-  static void describe(Schema<TravelParams>& s);
+  static void describe(Schema<TravelParameters>& s);
 };
 
 /// Costs the length of the way on which a moving part is within a small gap of the present parts, in largest edges of
 /// the assembly's box. An open way costs nothing, however long it is. Without a path it costs nothing.
 class Travel final : public StepCheck {
  public:
-  explicit Travel(const TravelParams& params = {}) : params_(params) {}
+  explicit Travel(const TravelParameters& params = {}) : params_(params) {}
   StepCheckTraits traits() const noexcept override { return {.estimates = true}; }
   /// By points of the moving surfaces.
   StepVerdict judge(const StepQuestion& question, const RunContext& context) const override;
@@ -50,7 +50,7 @@ class Travel final : public StepCheck {
   StepVerdict verdict_of(const StepQuestion& question, const Scene& scene, const Close& close) const;
   bool touches(const Assembly& assembly, const Scene& scene, const PlacedPart& moving, const PlacedPart& other) const;
 
-  TravelParams params_;
+  TravelParameters params_;
   geometry::OfLastAssembly<Scene> scenes_;
 };
 

@@ -9,7 +9,7 @@ namespace dismantle::immobility {
 
 std::optional<ConfigurationCage> cage_by_configuration_cells(const std::vector<Solid>& a, const std::vector<Solid>& b,
                                                              double depth, double tolerance,
-                                                             const ConfigurationCellsParams& params,
+                                                             const ConfigurationCellsParameters& params,
                                                              const RunContext& context) {
   if (!all_closed(a) || !all_closed(b)) return std::nullopt;
   const SampledPair pair(a, b, depth, params.sample_spacing * tolerance);

@@ -33,7 +33,7 @@ struct ConfigurationCage {
 /// be in the box, and if it separates the parts, there is nothing to prove.
 std::optional<ConfigurationCage> cage_by_configuration_cells(const std::vector<Solid>& a, const std::vector<Solid>& b,
                                                              double depth, double tolerance,
-                                                             const ConfigurationCellsParams& params,
+                                                             const ConfigurationCellsParameters& params,
                                                              const RunContext& context);
 
 }  // namespace dismantle::immobility

@@ -15,7 +15,8 @@ bool holds_start(const PoseCell& c) { return !c.empty && (c.lo.array() <= 0).all
 }  // namespace
 
 CellDecomposition::CellDecomposition(const SampledPair& pair, FreeSpaceSampler& sampler,
-                                     const ConfigurationCellsParams& params, const Scale& scale, ForkJoin& fork_join)
+                                     const ConfigurationCellsParameters& params, const Scale& scale,
+                                     ForkJoin& fork_join)
     : pair_(pair),
       sampler_(sampler),
       params_(params),

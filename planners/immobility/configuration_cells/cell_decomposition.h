@@ -31,7 +31,7 @@ class CellDecomposition {
 
   /// The first box contains the poses of the sampler, and the samples that blocked it are active. Further samples are
   /// activated as needed, and the sampler is directed to where cells lead.
-  CellDecomposition(const SampledPair& pair, FreeSpaceSampler& sampler, const ConfigurationCellsParams& params,
+  CellDecomposition(const SampledPair& pair, FreeSpaceSampler& sampler, const ConfigurationCellsParameters& params,
                     const Scale& scale, ForkJoin& fork_join);
 
   End run(const RunContext& context);
@@ -62,7 +62,7 @@ class CellDecomposition {
 
   const SampledPair& pair_;
   FreeSpaceSampler& sampler_;
-  const ConfigurationCellsParams& params_;
+  const ConfigurationCellsParameters& params_;
   Scale limits_;
   ForkJoin& fork_join_;
   ActiveSamples active_;

@@ -9,17 +9,17 @@
 
 namespace dismantle::immobility {
 
-void ConfigurationCellsParams::describe(Schema<ConfigurationCellsParams>& s) {
-  s.advanced("walk_checks", &ConfigurationCellsParams::walk_checks, {1});
-  s.add("max_divisions", &ConfigurationCellsParams::max_divisions,
+void ConfigurationCellsParameters::describe(Schema<ConfigurationCellsParameters>& s) {
+  s.advanced("walk_checks", &ConfigurationCellsParameters::walk_checks, {1});
+  s.add("max_divisions", &ConfigurationCellsParameters::max_divisions,
         {.unit = "1",
          .min = 1,
          .doc = "Limit of divided cells of relative poses, after which the proof is given up. Time grows in "
                 "proportion: about half a minute for the default."});
-  s.advanced("patience", &ConfigurationCellsParams::patience, {1});
-  s.advanced("sample_spacing", &ConfigurationCellsParams::sample_spacing, {.min = 0, .min_open = true});
-  s.advanced("smallest_cell", &ConfigurationCellsParams::smallest_cell, {.min = 0, .min_open = true});
-  s.advanced("separation", &ConfigurationCellsParams::separation, {.min = 0, .min_open = true});
+  s.advanced("patience", &ConfigurationCellsParameters::patience, {1});
+  s.advanced("sample_spacing", &ConfigurationCellsParameters::sample_spacing, {.min = 0, .min_open = true});
+  s.advanced("smallest_cell", &ConfigurationCellsParameters::smallest_cell, {.min = 0, .min_open = true});
+  s.advanced("separation", &ConfigurationCellsParameters::separation, {.min = 0, .min_open = true});
 }
 
 std::optional<Certificate> ConfigurationCells::prove(const SeparationQuery& query, const RunContext& context) const {

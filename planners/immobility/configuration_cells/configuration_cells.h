@@ -9,7 +9,7 @@
 namespace dismantle::immobility {
 
 /// Lengths are multiples of the tolerance. The parameters affect only the effort, not the soundness of a proof.
-struct ConfigurationCellsParams {
+struct ConfigurationCellsParameters {
   /// State checks of the random search that precedes the proof. If it separates the parts, no proof is tried. Too few
   /// checks waste time on proofs that must fail.
   std::int64_t walk_checks = 6000;
@@ -29,18 +29,18 @@ struct ConfigurationCellsParams {
   /// is more. It must exceed the distance that parts can slide without being separated, in multiples of
   /// verify.max_penetration.
   double separation = 300;
-  static void describe(Schema<ConfigurationCellsParams>& s);
+  static void describe(Schema<ConfigurationCellsParameters>& s);
 };
 
 /// The proof is in cage.h. For the whole tolerance it succeeds less often than for half of it.
 class ConfigurationCells final : public ImmobilityProver {
  public:
-  explicit ConfigurationCells(const ConfigurationCellsParams& params = {}) : params_(params) {}
+  explicit ConfigurationCells(const ConfigurationCellsParameters& params = {}) : params_(params) {}
   ProverTraits traits() const noexcept override { return {ProofEffort::high, 2, 2, false}; }
   std::optional<Certificate> prove(const SeparationQuery& query, const RunContext& context) const override;
 
  private:
-  ConfigurationCellsParams params_;
+  ConfigurationCellsParameters params_;
 };
 
 }  // namespace dismantle::immobility

@@ -4,7 +4,7 @@
 
 DISMANTLE_PLUGIN("dismantle.configuration_cells", DISMANTLE_VERSION, "MIT", "") {
   r.add<dismantle::ImmobilityProver, dismantle::immobility::ConfigurationCells,
-        dismantle::immobility::ConfigurationCellsParams>(
+        dismantle::immobility::ConfigurationCellsParameters>(
       "configuration_cells",
       "Two parts of any shape: boxes of their relative poses, none of which that can be reached leads out.",
       {.source = "approximate cell decomposition: Lozano-Perez 1983; proofs of path non-existence: Zhang, Kim and "

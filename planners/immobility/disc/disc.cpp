@@ -30,13 +30,13 @@ std::vector<double> numbers_of(const std::vector<Aabb>& boxes) {
 
 }  // namespace
 
-void DiscParams::describe(Schema<DiscParams>& s) {
-  s.advanced("max_discs", &DiscParams::max_discs, {1});
-  s.add("max_divisions", &DiscParams::max_divisions,
+void DiscParameters::describe(Schema<DiscParameters>& s) {
+  s.advanced("max_discs", &DiscParameters::max_discs, {1});
+  s.add("max_divisions", &DiscParameters::max_divisions,
         {.unit = "1",
          .min = 1,
          .doc = "Limit of divided cells of positions of the disc's centre, after which the proof is given up."});
-  s.advanced("max_facets", &DiscParams::max_facets, {1});
+  s.advanced("max_facets", &DiscParameters::max_facets, {1});
 }
 
 std::optional<Certificate> Disc::prove(const SeparationQuery& query, const RunContext& context) const {

@@ -52,7 +52,7 @@ class Chamber {
   }
 
   /// The cells that are linked to the start, if they are cut off from the border.
-  std::optional<DiscCage> closed(const DiscParams& params, const RunContext& context) {
+  std::optional<DiscCage> closed(const DiscParameters& params, const RunContext& context) {
     const auto divisions = static_cast<std::size_t>(params.max_divisions);
     const auto facets = static_cast<std::size_t>(params.max_facets);
     if (!facets_.box().contains(start_) || !(solids_.clearance(start_) > disc_.half)) return std::nullopt;
@@ -307,7 +307,7 @@ class Chamber {
 }  // namespace
 
 std::optional<DiscCage> disc_cage(const InteriorDisc& disc, const std::vector<Solid>& around, double slack,
-                                  const DiscParams& params, const RunContext& context) {
+                                  const DiscParameters& params, const RunContext& context) {
   return Chamber(disc, around, slack).closed(params, context);
 }
 

@@ -47,6 +47,6 @@ struct DiscCage {
 /// removed, until the remaining cells around the assembled position are cut off from the border. A cell is excluded
 /// only if all of its points are (see DiameterClearance).
 std::optional<DiscCage> disc_cage(const InteriorDisc& disc, const std::vector<Solid>& around, double slack,
-                                  const DiscParams& params, const RunContext& context);
+                                  const DiscParameters& params, const RunContext& context);
 
 }  // namespace dismantle::immobility

@@ -61,9 +61,9 @@ std::vector<PartId> distinct(const std::vector<PartId>& parts) {
 
 }  // namespace
 
-void EnclosedBallParams::describe(Schema<EnclosedBallParams>& s) {
-  s.advanced("max_cubes", &EnclosedBallParams::max_cubes, {1});
-  s.advanced("max_cells", &EnclosedBallParams::max_cells, {1});
+void EnclosedBallParameters::describe(Schema<EnclosedBallParameters>& s) {
+  s.advanced("max_cubes", &EnclosedBallParameters::max_cubes, {1});
+  s.advanced("max_cells", &EnclosedBallParameters::max_cells, {1});
 }
 
 ProverTraits EnclosedBall::traits() const noexcept {

@@ -17,12 +17,12 @@ std::vector<double> legs_of(const Bend& bend) {
 
 }  // namespace
 
-void HookParams::describe(Schema<HookParams>& s) {
-  s.advanced("max_holes", &HookParams::max_holes, {1});
-  s.advanced("max_bends", &HookParams::max_bends, {1});
-  s.advanced("max_nodes", &HookParams::max_nodes, {8});
-  s.advanced("max_distances", &HookParams::max_distances, {1});
-  s.advanced("min_bend", &HookParams::min_bend, {0, 1.57});
+void HookParameters::describe(Schema<HookParameters>& s) {
+  s.advanced("max_holes", &HookParameters::max_holes, {1});
+  s.advanced("max_bends", &HookParameters::max_bends, {1});
+  s.advanced("max_nodes", &HookParameters::max_nodes, {8});
+  s.advanced("max_distances", &HookParameters::max_distances, {1});
+  s.advanced("min_bend", &HookParameters::min_bend, {0, 1.57});
 }
 
 std::optional<Certificate> Hook::prove(const SeparationQuery& query, const RunContext& context) const {

@@ -8,7 +8,7 @@
 
 namespace dismantle::immobility {
 
-struct HookParams {
+struct HookParameters {
   /// Holes around a bar that are tried, those around the thickest pieces of the bar first.
   std::int64_t max_holes = 4;
   std::int64_t max_bends = 3;  ///< Bends that are tried on each side of a hole, the sharpest first.
@@ -19,18 +19,18 @@ struct HookParams {
   std::int64_t max_distances = 6'000'000;
   /// Bends with a smaller angle are not tried, since they pass almost any hole that the bar passes (rad).
   double min_bend = 0.87;
-  static void describe(Schema<HookParams>& s);
+  static void describe(Schema<HookParameters>& s);
 };
 
 /// The proof is in hook_cage.h.
 class Hook final : public ImmobilityProver {
  public:
-  explicit Hook(const HookParams& params = {}) : params_(params) {}
+  explicit Hook(const HookParameters& params = {}) : params_(params) {}
   ProverTraits traits() const noexcept override { return {ProofEffort::medium, 2, 2, false}; }
   std::optional<Certificate> prove(const SeparationQuery& query, const RunContext& context) const override;
 
  private:
-  HookParams params_;
+  HookParameters params_;
 };
 
 }  // namespace dismantle::immobility

@@ -265,7 +265,7 @@ struct BendWithPath {
 
 /// Corners of the bar on one side of the disc that may be bends, with their place in `near`; the worthiest first.
 std::vector<std::pair<Corner, std::uint32_t>> corners_of(const Bar& bar, const std::vector<Reached>& near,
-                                                         const HookParams& params) {
+                                                         const HookParameters& params) {
   std::vector<std::pair<Corner, std::uint32_t>> corners;
   constexpr std::uint32_t kMostNodes = 40;  // a bend further away lets the bar slide to it
   for (std::uint32_t k = 0; k < near.size() && k < kMostNodes; ++k)
@@ -280,7 +280,7 @@ std::vector<std::pair<Corner, std::uint32_t>> corners_of(const Bar& bar, const s
 
 /// A bend of the bar on one side of the disc that cannot pass the disc.
 std::optional<BendWithPath> bend_on_side(const Bar& bar, const Solid& around, const Hole& hole, bool above,
-                                         const HookParams& params, const RunContext& context) {
+                                         const HookParameters& params, const RunContext& context) {
   const std::vector<Reached> near = on_side(bar, hole, above);
   for (const auto& [corner, place] : corners_of(bar, near, params)) {
     const auto bend = refined(bar, corner, params.min_bend);
@@ -298,7 +298,7 @@ std::optional<BendWithPath> bend_on_side(const Bar& bar, const Solid& around, co
 }  // namespace
 
 std::optional<HookCage> hook_cage(const Solid& solid, const std::vector<MedialBall>& balls, const Solid& around,
-                                  double depth, const HookParams& params, const RunContext& context) {
+                                  double depth, const HookParameters& params, const RunContext& context) {
   Bar bar{solid, depth, nodes_of(balls, depth, static_cast<std::size_t>(params.max_nodes)), {}};
   if (bar.nodes.size() < kLeastSteps) return std::nullopt;
   bar.links = links_of(bar.nodes);

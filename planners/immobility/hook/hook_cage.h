@@ -43,6 +43,6 @@ struct HookCage {
 /// out of the hole. A cover of all positions and directions by cells gives the directions in which a leg can do so. No
 /// two of these differ by as much as the legs do.
 std::optional<HookCage> hook_cage(const Solid& bar, const std::vector<MedialBall>& balls, const Solid& around,
-                                  double depth, const HookParams& params, const RunContext& context);
+                                  double depth, const HookParameters& params, const RunContext& context);
 
 }  // namespace dismantle::immobility

@@ -9,14 +9,14 @@
 
 namespace dismantle::immobility {
 
-void InterlockLpParams::describe(Schema<InterlockLpParams>& s) {
-  s.add("max_parts", &InterlockLpParams::max_parts,
+void InterlockLpParameters::describe(Schema<InterlockLpParameters>& s) {
+  s.add("max_parts", &InterlockLpParameters::max_parts,
         {.unit = "1",
          .min = 2,
          .max = 64,
          .doc = "Size of the largest group that is tried. Time grows with the cube of the number of parts."});
-  s.advanced("max_rounds", &InterlockLpParams::max_rounds, {1});
-  s.advanced("sample_spacing", &InterlockLpParams::sample_spacing, {.min = 0, .min_open = true});
+  s.advanced("max_rounds", &InterlockLpParameters::max_rounds, {1});
+  s.advanced("sample_spacing", &InterlockLpParameters::sample_spacing, {.min = 0, .min_open = true});
 }
 
 std::optional<Certificate> InterlockLp::prove(const SeparationQuery& query, const RunContext& context) const {

@@ -8,7 +8,7 @@
 
 namespace dismantle::immobility {
 
-struct InterlockLpParams {
+struct InterlockLpParameters {
   std::int64_t max_parts = 8;
   /// How often the assumed bounds of the motions are widened before the proof is given up. Most proofs need less than
   /// ten rounds.
@@ -16,20 +16,20 @@ struct InterlockLpParams {
   /// Distance between the interior points that the proof uses, in multiples of verify.max_penetration. Fewer points are
   /// faster, but miss contacts of small features.
   double sample_spacing = 2;
-  static void describe(Schema<InterlockLpParams>& s);
+  static void describe(Schema<InterlockLpParameters>& s);
 };
 
 /// Proves immobility of all parts of the query, any of which may move. The proof is in interlock.h.
 class InterlockLp final : public ImmobilityProver {
  public:
-  explicit InterlockLp(const InterlockLpParams& params = {}) : params_(params) {}
+  explicit InterlockLp(const InterlockLpParameters& params = {}) : params_(params) {}
   ProverTraits traits() const noexcept override {
     return {ProofEffort::high, 3, static_cast<std::size_t>(params_.max_parts), false};
   }
   std::optional<Certificate> prove(const SeparationQuery& query, const RunContext& context) const override;
 
  private:
-  InterlockLpParams params_;
+  InterlockLpParameters params_;
 };
 
 }  // namespace dismantle::immobility

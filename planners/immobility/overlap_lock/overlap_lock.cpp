@@ -6,8 +6,8 @@
 #include "overlap_lock/deep_common_point.h"
 
 namespace dismantle::immobility {
-void OverlapLockParams::describe(Schema<OverlapLockParams>& s) {
-  s.advanced("max_cubes", &OverlapLockParams::max_cubes, {1});
+void OverlapLockParameters::describe(Schema<OverlapLockParameters>& s) {
+  s.advanced("max_cubes", &OverlapLockParameters::max_cubes, {1});
 }
 
 std::optional<Certificate> OverlapLock::prove(const SeparationQuery& query, const RunContext& context) const {

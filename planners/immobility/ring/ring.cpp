@@ -7,11 +7,11 @@
 
 namespace dismantle::immobility {
 
-void RingParams::describe(Schema<RingParams>& s) {
-  s.advanced("max_rings", &RingParams::max_rings, {1});
-  s.advanced("heights", &RingParams::heights, {1});
-  s.advanced("radii", &RingParams::radii, {1});
-  s.advanced("max_sections", &RingParams::max_sections, {1});
+void RingParameters::describe(Schema<RingParameters>& s) {
+  s.advanced("max_rings", &RingParameters::max_rings, {1});
+  s.advanced("heights", &RingParameters::heights, {1});
+  s.advanced("radii", &RingParameters::radii, {1});
+  s.advanced("max_sections", &RingParameters::max_sections, {1});
 }
 
 std::optional<Certificate> Ring::prove(const SeparationQuery& query, const RunContext& context) const {

@@ -8,7 +8,7 @@
 
 namespace dismantle::immobility {
 
-struct RingParams {
+struct RingParameters {
   /// Circles that are tried within each solid, the largest first. Larger circles pass fewer openings.
   std::int64_t max_rings = 2;
   /// Positions along each axis of a part at which a circle is searched. Too few may miss thin rims.
@@ -16,18 +16,18 @@ struct RingParams {
   std::int64_t radii = 32;  ///< Radii that are tried at each position. More radii find a circle closer to the largest.
   /// Approximate number of planes across the axis in which the openings of a chamber are searched.
   std::int64_t max_sections = 150;
-  static void describe(Schema<RingParams>& s);
+  static void describe(Schema<RingParameters>& s);
 };
 
 /// The proof is in ring_cage.h.
 class Ring final : public ImmobilityProver {
  public:
-  explicit Ring(const RingParams& params = {}) : params_(params) {}
+  explicit Ring(const RingParameters& params = {}) : params_(params) {}
   ProverTraits traits() const noexcept override { return {ProofEffort::low, 2, 2, false}; }
   std::optional<Certificate> prove(const SeparationQuery& query, const RunContext& context) const override;
 
  private:
-  RingParams params_;
+  RingParameters params_;
 };
 
 }  // namespace dismantle::immobility

@@ -14,7 +14,7 @@ using Vec3 = Eigen::Vector3d;
 
 }  // namespace
 
-std::vector<InteriorCircle> circles_in(const Solid& solid, double depth, const RingParams& params) {
+std::vector<InteriorCircle> circles_in(const Solid& solid, double depth, const RingParameters& params) {
   std::vector<InteriorCircle> candidates;
   if (!(0.5 * solid.box.size().minCoeff() > depth)) return candidates;
   const auto [center, axes] = symmetry_axes_of(solid);
@@ -48,7 +48,7 @@ std::vector<InteriorCircle> circles_in(const Solid& solid, double depth, const R
 }
 
 std::optional<RingCage> ring_cage(const InteriorCircle& circle, const Solid& around, double slack,
-                                  const RingParams& params, const RunContext& context) {
+                                  const RingParameters& params, const RunContext& context) {
   if (!around.box.contains(around.frame.inverse() * circle.center)) return std::nullopt;  // a chamber is in the hull
   const Surface surface(around);
   const double middle = circle.axis.dot(circle.center);

@@ -17,7 +17,7 @@ struct RingCage {
 };
 
 /// Large circles in the solid, at least `depth` (> 0) below its surface; the largest first.
-std::vector<InteriorCircle> circles_in(const Solid& solid, double depth, const RingParams& params);
+std::vector<InteriorCircle> circles_in(const Solid& solid, double depth, const RingParameters& params);
 
 /// Proves that the circle is in a chamber of the solid that it cannot leave. Returns nullopt if no such chamber was
 /// found, or told to stop. `slack`: openings are narrower than the circle by more than this; assembly units, > 0.
@@ -30,6 +30,6 @@ std::vector<InteriorCircle> circles_in(const Solid& solid, double depth, const R
 /// first touched the disc, and it never grows to half of the circle. When the circle crosses no disc, no arc is cut
 /// off, and all of it is inside again. So a point of the circle is always in the chamber or on one of its discs.
 std::optional<RingCage> ring_cage(const InteriorCircle& circle, const Solid& around, double slack,
-                                  const RingParams& params, const RunContext& context);
+                                  const RingParameters& params, const RunContext& context);
 
 }  // namespace dismantle::immobility

@@ -7,12 +7,12 @@
 
 namespace dismantle::immobility {
 
-void SpoolParams::describe(Schema<SpoolParams>& s) {
-  s.advanced("max_rings", &SpoolParams::max_rings, {1});
-  s.advanced("heights", &SpoolParams::heights, {1});
-  s.advanced("radii", &SpoolParams::radii, {2});
-  s.advanced("max_sections", &SpoolParams::max_sections, {1});
-  s.advanced("max_dent", &SpoolParams::max_dent, {.min = 0, .min_open = true});
+void SpoolParameters::describe(Schema<SpoolParameters>& s) {
+  s.advanced("max_rings", &SpoolParameters::max_rings, {1});
+  s.advanced("heights", &SpoolParameters::heights, {1});
+  s.advanced("radii", &SpoolParameters::radii, {2});
+  s.advanced("max_sections", &SpoolParameters::max_sections, {1});
+  s.advanced("max_dent", &SpoolParameters::max_dent, {.min = 0, .min_open = true});
 }
 
 std::optional<Certificate> Spool::prove(const SeparationQuery& query, const RunContext& context) const {

@@ -8,7 +8,7 @@
 
 namespace dismantle::immobility {
 
-struct SpoolParams {
+struct SpoolParameters {
   std::int64_t max_rings = 4;  ///< Circles that are tried about each axis of the spool, the narrowest first.
   /// Positions along each axis of the spool at which a circle is searched. Too few may miss thin plates.
   std::int64_t heights = 24;
@@ -18,18 +18,18 @@ struct SpoolParams {
   /// Distance by which a rim may differ from a convex curve, in multiples of verify.max_penetration. The circle must be
   /// deeper by the same amount.
   double max_dent = 0.01;
-  static void describe(Schema<SpoolParams>& s);
+  static void describe(Schema<SpoolParameters>& s);
 };
 
 /// The proof is in spool_cage.h.
 class Spool final : public ImmobilityProver {
  public:
-  explicit Spool(const SpoolParams& params = {}) : params_(params) {}
+  explicit Spool(const SpoolParameters& params = {}) : params_(params) {}
   ProverTraits traits() const noexcept override { return {ProofEffort::low, 2, 2, false}; }
   std::optional<Certificate> prove(const SeparationQuery& query, const RunContext& context) const override;
 
  private:
-  SpoolParams params_;
+  SpoolParameters params_;
 };
 
 }  // namespace dismantle::immobility

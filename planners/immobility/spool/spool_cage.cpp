@@ -52,7 +52,7 @@ namespace {
 
 /// Circles about an axis, within the solid, the smallest first.
 std::vector<InteriorCircle> circles_about(const Vec3& foot, const Vec3& axis, double lo, double hi, double reach,
-                                          const Solid& solid, double depth, const SpoolParams& params) {
+                                          const Solid& solid, double depth, const SpoolParameters& params) {
   std::vector<InteriorCircle> circles;
   for (std::int64_t z = 0; z < params.heights; ++z) {
     const double share = (static_cast<double>(z) + 0.5) / static_cast<double>(params.heights);
@@ -101,7 +101,7 @@ std::array<Rim, 2> rims(const std::vector<Loop>& loops, const InteriorCircle& ci
 }  // namespace
 
 std::optional<SpoolCage> spool_cage(const Solid& spool, const Solid& around, double allowed, double slack,
-                                    double max_dent, const SpoolParams& params, const RunContext& context) {
+                                    double max_dent, const SpoolParameters& params, const RunContext& context) {
   const double depth = allowed + max_dent;  // then the circle does not meet the convex curve beside a rim either
   const auto [center, axes] = symmetry_axes_of(spool);
   const Vec3 foot = spool.frame * center;

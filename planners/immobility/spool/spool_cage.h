@@ -33,6 +33,6 @@ struct SpoolCage {
 /// rim and the short one. At first the line crosses once. If the parts were apart, nothing would cross the disc: both
 /// ends would be on long arcs as at first, and yet the number of crossings would be even.
 std::optional<SpoolCage> spool_cage(const Solid& spool, const Solid& around, double depth, double slack,
-                                    double max_dent, const SpoolParams& params, const RunContext& context);
+                                    double max_dent, const SpoolParameters& params, const RunContext& context);
 
 }  // namespace dismantle::immobility

@@ -32,9 +32,9 @@ std::vector<PartId> parts_of(const SeparationQuery& query) {
 
 }  // namespace
 
-void TranslationsParams::describe(Schema<TranslationsParams>& s) {
-  s.advanced("arrangements", &TranslationsParams::arrangements, {1, 1e7});
-  s.advanced("lookups", &TranslationsParams::lookups, {1, 1e12});
+void TranslationsParameters::describe(Schema<TranslationsParameters>& s) {
+  s.advanced("arrangements", &TranslationsParameters::arrangements, {1, 1e7});
+  s.advanced("lookups", &TranslationsParameters::lookups, {1, 1e12});
 }
 
 ProverTraits Translations::traits() const noexcept { return {ProofEffort::low, 2, lattice::kMostParts, false}; }

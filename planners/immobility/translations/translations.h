@@ -12,19 +12,19 @@
 
 namespace dismantle::immobility {
 
-struct TranslationsParams {
+struct TranslationsParameters {
   /// Largest number of arrangements of a proof. Its certificate lists them.
   std::int64_t arrangements = 20'000;
   /// Largest number of arrangements that are looked up.
   std::int64_t lookups = 5'000'000;
-  static void describe(Schema<TranslationsParams>& s);
+  static void describe(Schema<TranslationsParameters>& s);
 };
 
 /// Proves that no translations separate the parts of the query, whichever of them move, also several at once. It does
 /// not cover rotations, so it never answers for the full tolerance, which would mean that no valid motion exists.
 class Translations final : public ImmobilityProver {
  public:
-  explicit Translations(const TranslationsParams& params = {}) : params_(params) {}
+  explicit Translations(const TranslationsParameters& params = {}) : params_(params) {}
   ProverTraits traits() const noexcept override;
   std::optional<Certificate> prove(const SeparationQuery& query, const RunContext& context) const override;
 
@@ -38,7 +38,7 @@ class Translations final : public ImmobilityProver {
   Proof search(const std::vector<const Mesh*>& meshes, const lattice::Lattice& grid, double deep,
                const RunContext& context) const;
 
-  TranslationsParams params_;
+  TranslationsParameters params_;
 };
 
 }  // namespace dismantle::immobility

@@ -72,21 +72,21 @@ void LevelSearch::begin() {
 /// Returns how far the centre of a part has moved, at most.
 double LevelSearch::remember(const State& state) {
   ends_.add(state, 0);
-  double way = 0;
+  double distance = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Eigen::Vector3d& center = bodies_[i].center;
-    way = std::max(way, (state.bodies[i].pose * center - query_.scene.moving[i].pose * center).norm());
+    distance = std::max(distance, (state.bodies[i].pose * center - query_.scene.moving[i].pose * center).norm());
   }
-  if (way <= farthest_) return way;
-  farthest_ = way;
+  if (distance <= farthest_) return distance;
+  farthest_ = distance;
   best_ = path::poses_of(state);
-  return way;
+  return distance;
 }
 
 std::int32_t LevelSearch::add(Node node) {
   for (auto& b : node.state.bodies) b.velocity.setZero(), b.angular_velocity.setZero();
-  const double way = remember(node.state);
-  if (record_.listens()) record_.node(node.parent, path::poses_of(node.state), static_cast<double>(steps_), way);
+  const double distance = remember(node.state);
+  if (record_.listens()) record_.node(node.parent, path::poses_of(node.state), static_cast<double>(steps_), distance);
   levels_.nodes.push_back(std::move(node));
   return static_cast<std::int32_t>(levels_.nodes.size() - 1);
 }
@@ -110,7 +110,8 @@ Path LevelSearch::path_to(std::int32_t node) const {
   for (std::int32_t n = node; n >= 0; n = line.back()->parent)
     line.push_back(&levels_.nodes[static_cast<std::size_t>(n)]);
   Path path{path::poses_of(line.back()->state)};
-  for (auto n = line.rbegin() + 1; n != line.rend(); ++n) path.insert(path.end(), (*n)->way.begin(), (*n)->way.end());
+  for (auto n = line.rbegin() + 1; n != line.rend(); ++n)
+    path.insert(path.end(), (*n)->distance.begin(), (*n)->distance.end());
   return path;
 }
 
@@ -138,17 +139,17 @@ LevelSearch::End LevelSearch::follow(std::int32_t from, const Action& action, co
   path::StateSet run(bodies_, parameters_.similarity_translation, parameters_.similarity_rotation);
   while (true) {
     if (over()) return End::stopped;
-    const std::size_t before = end.way.size();
+    const std::size_t before = end.distance.size();
     for (auto& b : end.state.bodies) b.velocity.setZero(), b.angular_velocity.setZero();
-    const StepReport report = world_->advance(end.state, action, parameters_.time_step, &end.way);
+    const StepReport report = world_->advance(end.state, action, parameters_.time_step, &end.distance);
     steps_ += report.steps;
     levels_.work += report.steps;
     if (steps_left_ != nullptr) *steps_left_ -= std::min(*steps_left_, report.steps);
     if (!report.finite) return End::searched;
-    end.instants = start.instants + end.way.size();
-    if (end.way.size() > before && world_->separated(end.state)) return verify(add(std::move(end)), result);
+    end.instants = start.instants + end.distance.size();
+    if (end.distance.size() > before && world_->separated(end.state)) return verify(add(std::move(end)), result);
     if (passed.has_similar(end.state) || run.has_similar(end.state)) break;
-    for (std::size_t k = before; k < end.way.size(); ++k) run.add(at(end.way[k]), 0);
+    for (std::size_t k = before; k < end.distance.size(); ++k) run.add(at(end.distance[k]), 0);
   }
   std::vector<Contact> contacts;
   world_->contacts(end.state, contacts);

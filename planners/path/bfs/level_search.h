@@ -19,7 +19,7 @@ struct Node {
   State state;
   std::int32_t parent = -1;
   unsigned depth = 0;        ///< actions from the start
-  Path way{};                ///< instants after the parent's, up to this state's
+  Path distance{};           ///< instants after the parent's, up to this state's
   std::size_t instants = 0;  ///< number of instants from the start
 };
 

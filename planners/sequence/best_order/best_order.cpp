@@ -22,9 +22,9 @@ using order::Segment;
 using order::Step;
 using order::VariantId;
 
-void BestOrderParams::describe(Schema<BestOrderParams>& s) {
-  s.add("of", &BestOrderParams::of, {.doc = "The planner whose plan is put in a better order."});
-  s.add("effort", &BestOrderParams::effort,
+void BestOrderParameters::describe(Schema<BestOrderParameters>& s) {
+  s.add("of", &BestOrderParameters::of, {.doc = "The planner whose plan is put in a better order."});
+  s.add("effort", &BestOrderParameters::effort,
         {.unit = "1",
          .min = 0,
          .max = 1e9,
@@ -65,9 +65,9 @@ blocking::Directions with_used(blocking::Directions directions, const std::vecto
   constexpr std::size_t kMost = 12;
   for (const Removal& removal : plan) {
     const Path& path = removal.attempt->path();
-    const Eigen::Vector3d way = path.back().front().t - path[path.size() > 1 ? path.size() - 2 : 0].front().t;
-    if (removal.attempt->forced || way.isZero() || everywhere.size() >= kMost) continue;
-    const Eigen::Vector3d unit = way.normalized();
+    const Eigen::Vector3d displacement = path.back().front().t - path[path.size() > 1 ? path.size() - 2 : 0].front().t;
+    if (removal.attempt->forced || displacement.isZero() || everywhere.size() >= kMost) continue;
+    const Eigen::Vector3d unit = displacement.normalized();
     std::size_t d = 0;
     while (d < directions.all.size() && directions.all[d].dot(unit) <= 1 - 1e-9) ++d;
     if (d == directions.all.size()) {
@@ -82,7 +82,7 @@ blocking::Directions with_used(blocking::Directions directions, const std::vecto
 /// Finds the order of each segment, and records it if the whole is better.
 class Rewriting {
  public:
-  Rewriting(const BestOrderParams& params, const SequenceQuery& query, PathOracle& oracle, Keeper& keeper,
+  Rewriting(const BestOrderParameters& params, const SequenceQuery& query, PathOracle& oracle, Keeper& keeper,
             RunContext& context, std::vector<Removal> plan)
       : query_(query),
         keeper_(keeper),
@@ -284,7 +284,7 @@ class Rewriting {
 
 }  // namespace
 
-BestOrder::BestOrder(const BestOrderParams& params) : params_(params), inner_(params.of.create()) {
+BestOrder::BestOrder(const BestOrderParameters& params) : params_(params), inner_(params.of.create()) {
   traits_ = inner_->traits();
   traits_.follows_objective = true;
 }

@@ -8,21 +8,21 @@
 
 namespace dismantle {
 
-struct BestOrderParams {
+struct BestOrderParameters {
   PluginRef<SequencePlanner> of;
   double effort = 60000;
-  static void describe(Schema<BestOrderParams>& schema);
+  static void describe(Schema<BestOrderParameters>& schema);
 };
 
 class BestOrder final : public SequencePlanner {
  public:
-  explicit BestOrder(const BestOrderParams& params);
+  explicit BestOrder(const BestOrderParameters& params);
   SequencePlannerTraits traits() const noexcept override { return traits_; }
   SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override;
 
  private:
-  BestOrderParams params_;
+  BestOrderParameters params_;
   std::shared_ptr<SequencePlanner> inner_;
   SequencePlannerTraits traits_;
 };

@@ -8,7 +8,7 @@ namespace dismantle {
 
 class Blocking final : public SequencePlanner {
  public:
-  explicit Blocking(const BlockingParams& params) : params_(params) {}
+  explicit Blocking(const BlockingParameters& params) : params_(params) {}
   SequencePlannerTraits traits() const noexcept override {
     return {.keeps_constraints = true, .any_start = true, .follows_objective = true};
   }
@@ -16,7 +16,7 @@ class Blocking final : public SequencePlanner {
                       RunContext& context) override;
 
  private:
-  BlockingParams params_;
+  BlockingParameters params_;
 };
 
 }  // namespace dismantle

@@ -14,20 +14,20 @@ namespace blocking {
 enum class Upwards { automatic, on, off };
 
 /// Straight removals: free_part, target_first, and the pairwise relations that other strategies use.
-struct StraightParams {
+struct StraightParameters {
   bool straight = true;
   /// Parts that leave straight up go first, then parts and groups that leave sideways, at last what leaves downwards:
   /// the base stays to the end.
   Upwards upwards = Upwards::automatic;
 };
 
-struct FreeGroupParams {
+struct FreeGroupParameters {
   bool groups = true;
   /// Largest number of groups proposed to the verifier before other strategies are tried.
   unsigned group_proposals = 8;
 };
 
-struct RepeatedPathParams {
+struct RepeatedPathParameters {
   bool repeated_paths = true;
   /// Parts whose box edges differ by less than this share of the box diagonal also count as copies. 0 = only parts with
   /// the same triangles.
@@ -35,7 +35,7 @@ struct RepeatedPathParams {
   unsigned repeated_refusals = 3;  ///< Number of refused proposals after which a part is left to the other strategies.
 };
 
-struct PartialTranslationParams {
+struct PartialTranslationParameters {
   std::int64_t translation_states = 60'000;
   /// The search is given up after the verifier has refused this number of translations.
   unsigned translation_refusals = 12;
@@ -53,7 +53,7 @@ struct PartialTranslationParams {
   unsigned translation_axes = 9;  ///< Largest number of axes along which parts move.
 };
 
-struct RotationParams {
+struct RotationParameters {
   bool rotations = true;
   unsigned rotation_axes = 2;      ///< Largest number of axes of one part.
   unsigned rotation_stops = 24;    ///< Orientations per full turn at which the other parts are examined.
@@ -67,7 +67,7 @@ struct RotationParams {
   double round_share = 0.02;
 };
 
-struct SimultaneousMotionParams {
+struct SimultaneousMotionParameters {
   bool simultaneous = true;
   unsigned simultaneous_parts = 3;  ///< Largest number of parts that move simultaneously.
   /// Largest number of sets that are moved, to depth 1, for one group until it changes.
@@ -80,7 +80,7 @@ struct SimultaneousMotionParams {
 };
 
 /// path_search, pair_search and postponed_search.
-struct PathSearchParams {
+struct PathSearchParameters {
   bool path_searches = true;
   bool pair_searches = true;
   bool postponed_searches = true;
@@ -99,13 +99,13 @@ struct PathSearchParams {
 };
 
 /// Parts that a snap fit holds.
-struct SnapParams {
+struct SnapParameters {
   /// A part is held by a snap fit if a straight motion cuts in by no more than this share of the diagonal of the
   /// smaller part, and by less than half a wall. After `snap_failures` it is searched for to depth 1. Used only if
   /// parts may be forced (`run.force`). 0: no part.
   double snap_share = 0.1;
-  unsigned snap_failures = 4;     ///< Parts whose deep searches found nothing, before there are no more.
-  unsigned snap_depth = 2;        ///< Smallest depth of a search that counts as deep.
+  unsigned snap_failures = 4;  ///< Parts whose deep searches found nothing, before there are no more.
+  unsigned snap_depth = 2;     ///< Smallest depth of a search that counts as deep.
   /// Depth to which all parts of a group that are held so were searched for, before there are no more: there need not
   /// be `snap_failures` of them.
   unsigned snap_depth_of_few = 3;
@@ -115,16 +115,16 @@ struct SnapParams {
 
 }  // namespace blocking
 
-struct BlockingParams : blocking::StraightParams,
-                        blocking::FreeGroupParams,
-                        blocking::RepeatedPathParams,
-                        blocking::PartialTranslationParams,
-                        blocking::RotationParams,
-                        blocking::SimultaneousMotionParams,
-                        blocking::PathSearchParams,
-                        blocking::SnapParams {
+struct BlockingParameters : blocking::StraightParameters,
+                            blocking::FreeGroupParameters,
+                            blocking::RepeatedPathParameters,
+                            blocking::PartialTranslationParameters,
+                            blocking::RotationParameters,
+                            blocking::SimultaneousMotionParameters,
+                            blocking::PathSearchParameters,
+                            blocking::SnapParameters {
   PartOrder order = PartOrder::small_first;
-  static void describe(Schema<BlockingParams>& s);
+  static void describe(Schema<BlockingParameters>& s);
 };
 
 }  // namespace dismantle

@@ -16,7 +16,7 @@
 
 namespace dismantle::blocking {
 
-Run::Run(const BlockingParams& params, const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
+Run::Run(const BlockingParameters& params, const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
          RunContext& context)
     : params_(params),
       oracle_(oracle),

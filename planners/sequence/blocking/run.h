@@ -13,7 +13,7 @@ namespace dismantle::blocking {
 
 class Run {
  public:
-  Run(const BlockingParams& params, const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
+  Run(const BlockingParameters& params, const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
       RunContext& context);
   SequenceResult run();
   /// In the order in which they are tried.
@@ -22,7 +22,7 @@ class Run {
  private:
   void make_strategies();
 
-  const BlockingParams& params_;
+  const BlockingParameters& params_;
   PathOracle& oracle_;
   DisassemblyState state_;
   SearchHistory history_;

@@ -20,7 +20,7 @@ struct PastSearch {
 class SearchHistory final : public GroupListener {
  public:
   /// Both must outlive this.
-  SearchHistory(const DisassemblyState& state, const PathSearchParams& params) : state_(state), params_(params) {}
+  SearchHistory(const DisassemblyState& state, const PathSearchParameters& params) : state_(state), params_(params) {}
 
   /// The last unsuccessful search for `id`. Null: none since a part that stays in the group was moved.
   const PastSearch* last(SubassemblyId id) const;
@@ -57,7 +57,7 @@ class SearchHistory final : public GroupListener {
   int cost_of(PartId part, const PathResult& result) const;
 
   const DisassemblyState& state_;
-  const PathSearchParams& params_;
+  const PathSearchParameters& params_;
   std::map<PartId, PastSearch> last_;
   double work_ = 0;
   std::map<PartId, int> cost_;  ///< of the last search for the part, logarithmic

@@ -25,7 +25,7 @@ class SnapFits {
  public:
   /// `straight`: null when switched off; then no part counts. `known_before`: an earlier planner of the run has
   /// searched for the parts that are left. All must outlive this.
-  SnapFits(const DisassemblyState& state, PathOracle& oracle, StraightMotion* straight, const SnapParams& params,
+  SnapFits(const DisassemblyState& state, PathOracle& oracle, StraightMotion* straight, const SnapParameters& params,
            bool known_before)
       : state_(state), oracle_(oracle), straight_(straight), params_(params), known_before_(known_before) {}
 
@@ -53,11 +53,11 @@ class SnapFits {
   const DisassemblyState& state_;
   PathOracle& oracle_;
   StraightMotion* straight_;
-  const SnapParams& params_;
+  const SnapParameters& params_;
   /// By part and the others of its group, in one arrangement.
   std::map<std::pair<SubassemblyId, Subassemblies>, std::optional<MotionDepth>> known_;
   std::uint64_t arrangement_ = 0;
-  bool known_before_;                 ///< an earlier planner of the run has left parts
+  bool known_before_;  ///< an earlier planner of the run has left parts
   /// Parts whose deep searches found nothing, with the greatest depth, since a search found something.
   std::map<SubassemblyId, unsigned> failed_{};
 };

@@ -99,7 +99,8 @@ std::size_t TranslationSearch::Hash::operator()(const Key& k) const {
   return static_cast<std::size_t>(h);
 }
 
-TranslationSearch::TranslationSearch(const Assembly& assembly, double tolerance, const PartialTranslationParams& params)
+TranslationSearch::TranslationSearch(const Assembly& assembly, double tolerance,
+                                     const PartialTranslationParameters& params)
     : assembly_(assembly), tolerance_(tolerance), params_(params) {}
 
 const TranslationSearch::Shape& TranslationSearch::shape(PartId part) { return shapes_.at(part); }

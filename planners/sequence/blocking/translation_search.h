@@ -36,7 +36,7 @@ using Places = std::map<PartId, Eigen::Vector3d>;
 class TranslationSearch {
  public:
   /// `tolerance`: of the verifier, assembly units. All references must outlive this.
-  TranslationSearch(const Assembly& assembly, double tolerance, const PartialTranslationParams& params);
+  TranslationSearch(const Assembly& assembly, double tolerance, const PartialTranslationParameters& params);
 
   enum class End { found, exhausted, limit, too_long, stopped, unsuited };
   struct Answer {
@@ -79,7 +79,7 @@ class TranslationSearch {
 
   const Assembly& assembly_;
   double tolerance_;
-  const PartialTranslationParams& params_;
+  const PartialTranslationParameters& params_;
   std::map<PartId, Shape> shapes_;
   std::vector<Eigen::Vector3d> directions_;  ///< in opposite pairs
   std::unordered_map<Key, double, Hash> free_;

@@ -12,17 +12,18 @@
 
 namespace dismantle {
 
-void ChainParams::describe(Schema<ChainParams>& s) {
-  s.add("of", &ChainParams::of,
-        {.doc = "The planners, in order. After the last: `least_cut`, to take out what no verified path is known for."});
-  s.add("later_share", &ChainParams::later_share,
+void ChainParameters::describe(Schema<ChainParameters>& s) {
+  s.add(
+      "of", &ChainParameters::of,
+      {.doc = "The planners, in order. After the last: `least_cut`, to take out what no verified path is known for."});
+  s.add("later_share", &ChainParameters::later_share,
         {.unit = "1",
          .min = 0,
          .max = 0.9,
          .doc = "Share of the time until run.timeout that is kept for the planners after the first. With run.force: "
                 "last_resort each remaining part gets its step in this time; with more time the steps cut in less."});
-  s.advanced("retry_share", &ChainParams::retry_share, {.min = 0, .max = 0.9});
-  s.advanced("retry_depth", &ChainParams::retry_depth, {.min = 1, .max = 1000});
+  s.advanced("retry_share", &ChainParameters::retry_share, {.min = 0, .max = 0.9});
+  s.advanced("retry_depth", &ChainParameters::retry_depth, {.min = 1, .max = 1000});
 }
 
 namespace {
@@ -62,7 +63,7 @@ class ShallowOracle final : public PathOracle {
 /// Runs the planners and keeps the disassembly up to date.
 class Links final : public SequenceObserver {
  public:
-  Links(const ChainParams& params, const std::vector<std::shared_ptr<SequencePlanner>>& planners,
+  Links(const ChainParameters& params, const std::vector<std::shared_ptr<SequencePlanner>>& planners,
         const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer, RunContext& context)
       : params_(params),
         planners_(planners),
@@ -147,8 +148,8 @@ class Links final : public SequenceObserver {
   /// Has the first planner crashed, or claimed a success that is none?
   bool failed() {
     if (is_success(all_.outcome) && !open().empty()) {
-      context_.log(LogLevel::error,
-                   "the sequence planner '" + params_.of.front().type() + "' reports success with parts still together");
+      context_.log(LogLevel::error, "the sequence planner '" + params_.of.front().type() +
+                                        "' reports success with parts still together");
       all_.outcome = Outcome::crashed;
     }
     return all_.outcome == Outcome::crashed;
@@ -199,7 +200,7 @@ class Links final : public SequenceObserver {
     return all_;
   }
 
-  const ChainParams& params_;
+  const ChainParameters& params_;
   const std::vector<std::shared_ptr<SequencePlanner>>& planners_;
   const SequenceQuery& query_;
   PathOracle& oracle_;
@@ -215,7 +216,7 @@ class Links final : public SequenceObserver {
 
 }  // namespace
 
-Chain::Chain(const ChainParams& params) : params_(params), traits_{true, true, true, false} {
+Chain::Chain(const ChainParameters& params) : params_(params), traits_{true, true, true, false} {
   if (params_.of.empty()) throw std::invalid_argument("a chain has at least one planner");
   for (const auto& ref : params_.of) {
     const auto planner = planners_.emplace_back(ref.create());

@@ -1,4 +1,6 @@
 // Planners one after the other: each starts from what those before it have left.
+#include "chain/chain.h"
+
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -6,7 +8,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "chain/chain.h"
 #include "dismantle/testing/run_rig.h"
 
 namespace dismantle {
@@ -49,11 +50,12 @@ class Some final : public SequencePlanner {
 };
 
 PluginRef<SequencePlanner> ref_to(const std::shared_ptr<SequencePlanner>& planner) {
-  return {PluginChoice{"some", {}, {}}, [planner](PluginKind, const PluginChoice&) -> std::shared_ptr<void> { return planner; }};
+  return {PluginChoice{"some", {}, {}},
+          [planner](PluginKind, const PluginChoice&) -> std::shared_ptr<void> { return planner; }};
 }
 
 RunResult run_chain(const Assembly& assembly, const std::vector<std::shared_ptr<SequencePlanner>>& planners) {
-  ChainParams params;
+  ChainParameters params;
   for (const auto& planner : planners) params.of.push_back(ref_to(planner));
   RunContext context;
   return run(assembly, fake::setup(fake::push, std::make_shared<Chain>(params)), {}, context);
@@ -71,7 +73,7 @@ TEST(Chain, ALaterPlannerGetsWhatIsLeft) {
   ASSERT_EQ(second->asked.size(), 1u);
   EXPECT_EQ(second->asked.front().size(), 3u);
   EXPECT_TRUE(first->depths.contains(0)) << "its first searches have no limit";
-  EXPECT_TRUE(first->depths.contains(ChainParams{}.retry_depth)) << "those of later groups are shallow";
+  EXPECT_TRUE(first->depths.contains(ChainParameters{}.retry_depth)) << "those of later groups are shallow";
 }
 
 TEST(Chain, OneThatNeedsTheWholeAssemblyIsOnlyAskedOnce) {
@@ -83,7 +85,7 @@ TEST(Chain, OneThatNeedsTheWholeAssemblyIsOnlyAskedOnce) {
   EXPECT_THROW(run_chain(fake::row(3), {second, first}), std::invalid_argument);
 }
 
-TEST(Chain, HasAtLeastOnePlanner) { EXPECT_THROW(Chain(ChainParams{}), std::invalid_argument); }
+TEST(Chain, HasAtLeastOnePlanner) { EXPECT_THROW(Chain(ChainParameters{}), std::invalid_argument); }
 
 /// The planners after the first must not hide what it did wrong.
 TEST(Chain, AClaimOfSuccessThatIsNoneEndsTheRun) {

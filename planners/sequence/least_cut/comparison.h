@@ -31,7 +31,7 @@ struct Outlook {
 class Comparison {
  public:
   /// All references must outlive it.
-  Comparison(ForcedMotions& motions, const LeastCutParams& params, double tolerance)
+  Comparison(ForcedMotions& motions, const LeastCutParameters& params, double tolerance)
       : motions_(motions), params_(params), tolerance_(tolerance) {}
 
   /// The step of the groups with the best outlook. When stopped: the one that cuts in least of those compared so far,
@@ -59,7 +59,7 @@ class Comparison {
   double unsure(double excess) const;
 
   ForcedMotions& motions_;
-  const LeastCutParams& params_;
+  const LeastCutParameters& params_;
   double tolerance_;
   std::map<std::vector<PartId>, Outlook> known_;  // valid during one call of best()
 };

@@ -15,7 +15,7 @@ namespace dismantle::least_cut {
 /// steps.
 class ForceBudget {
  public:
-  ForceBudget(const Deadline& whole, const LeastCutParams& params, const double& slowest_quick_step)
+  ForceBudget(const Deadline& whole, const LeastCutParameters& params, const double& slowest_quick_step)
       : whole_(whole), params_(params), quick_(slowest_quick_step) {}
 
   bool limited() const { return std::isfinite(whole_.seconds_left()); }
@@ -35,7 +35,7 @@ class ForceBudget {
   }
 
   Deadline whole_;
-  const LeastCutParams& params_;
+  const LeastCutParameters& params_;
   const double& quick_;  // seconds
 };
 

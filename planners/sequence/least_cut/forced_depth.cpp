@@ -20,7 +20,7 @@ void depths_along(const geometry::Solid& solid, const Eigen::Vector3d& from, con
   const auto leaves = [&](std::uint32_t t) { return solid.normals[t].dot(along) > 0; };
   double at = 0;
   bool inside = solid.box.squared_distance(from) == 0 && solid.bvh.inside(from);
-  for (int way = 0; way < 4 && at < reach; ++way) {  // few rays cross a part more often
+  for (int ray = 0; ray < 4 && at < reach; ++ray) {  // few rays cross a part more often
     if (!inside) {
       const double in = geometry::first_hit(solid.bvh, from + at * along, along, reach - at, enters);
       if (!std::isfinite(in)) return;

@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "dismantle/geometry/numerics.h"
+#include "dismantle/geometry/part_data.h"
 #include "dismantle/geometry/ray.h"
 #include "dismantle/geometry/slippage.h"
-#include "dismantle/geometry/part_data.h"
 #include "dismantle/geometry/swept_boxes.h"
 
 namespace dismantle::least_cut {
@@ -43,7 +43,7 @@ bool more_promising(const ForcedMotion& a, const ForcedMotion& b) {
 }
 
 ForcedMotions::ForcedMotions(const Assembly& assembly, PathOracle& oracle, const Constraints& constraints,
-                             const LeastCutParams& params)
+                             const LeastCutParameters& params)
     : assembly_(assembly),
       oracle_(oracle),
       constraints_(constraints),

@@ -40,7 +40,7 @@ class ForcedMotions {
  public:
   /// All references must outlive it. The oracle has a memo and allows forced steps.
   ForcedMotions(const Assembly& assembly, PathOracle& oracle, const Constraints& constraints,
-                const LeastCutParams& params);
+                const LeastCutParameters& params);
 
   /// Motions out of a group (two parts or more, ascending) that the constraints allow, most promising first:
   /// translations of single parts and of parts that block each other, and screws of threaded parts.
@@ -93,7 +93,7 @@ class ForcedMotions {
   const Assembly& assembly_;
   PathOracle& oracle_;
   const Constraints& constraints_;
-  const LeastCutParams& params_;
+  const LeastCutParameters& params_;
   std::vector<std::vector<geometry::FaceAxis>> axes_;               // by part, made when first needed
   std::vector<std::optional<std::vector<geometry::Twist>>> turns_;  // by part, in its frame
   std::map<Key, Known> known_;

@@ -11,36 +11,37 @@
 
 namespace dismantle {
 
-void LeastCutParams::describe(Schema<LeastCutParams>& s) {
-  s.add("directions", &LeastCutParams::directions,
-        {.unit = "1",
-         .min = 0,
-         .max = 1000,
-         .doc = "Number of directions, spread over a sphere, that a forced step may take in addition to the axes of the "
-                "parts' faces."});
-  s.add("candidates", &LeastCutParams::candidates,
+void LeastCutParameters::describe(Schema<LeastCutParameters>& s) {
+  s.add(
+      "directions", &LeastCutParameters::directions,
+      {.unit = "1",
+       .min = 0,
+       .max = 1000,
+       .doc = "Number of directions, spread over a sphere, that a forced step may take in addition to the axes of the "
+              "parts' faces."});
+  s.add("candidates", &LeastCutParameters::candidates,
         {.unit = "1",
          .min = 1,
          .max = 100000,
          .doc = "Number of motions whose depth is measured for one forced step, most promising first."});
-  s.advanced("quick_margin", &LeastCutParams::quick_margin, {.min = 1, .max = 100});
-  s.advanced("overtime", &LeastCutParams::overtime, {.min = 0, .max = 3600});
-  s.advanced("part_axes", &LeastCutParams::part_axes, {.min = 1, .max = 1000});
-  s.advanced("group_axes", &LeastCutParams::group_axes, {.min = 1, .max = 1000});
-  s.advanced("quick_axes", &LeastCutParams::quick_axes, {.min = 1, .max = 1000});
-  s.advanced("rays", &LeastCutParams::rays, {.min = 1, .max = 100000});
-  s.advanced("blocking_share", &LeastCutParams::blocking_share, {.min = 0, .max = 1});
-  s.advanced("firm_share", &LeastCutParams::firm_share, {.min = 0, .max = 1});
-  s.advanced("clearance", &LeastCutParams::clearance, {.min = 1, .max = 1000});
-  s.advanced("max_turns", &LeastCutParams::max_turns, {.min = 0, .max = 10000});
-  s.advanced("set_candidates", &LeastCutParams::set_candidates, {.min = 1, .max = 100000});
-  s.advanced("set_similarity", &LeastCutParams::set_similarity, {.min = -1, .max = 1});
-  s.advanced("depth_samples", &LeastCutParams::depth_samples, {.min = 1, .max = 100000});
-  s.advanced("finalists", &LeastCutParams::finalists, {.min = 1, .max = 100000});
-  s.advanced("depth_resolution", &LeastCutParams::depth_resolution, {.min = 1, .max = 1000});
-  s.advanced("depth_share", &LeastCutParams::depth_share, {.min = 0.001, .max = 1});
-  s.advanced("outlook_depths", &LeastCutParams::outlook_depths, {.min = 0, .max = 1000000});
-  s.advanced("depth_poses", &LeastCutParams::depth_poses, {.min = 1, .max = 1e9});
+  s.advanced("quick_margin", &LeastCutParameters::quick_margin, {.min = 1, .max = 100});
+  s.advanced("overtime", &LeastCutParameters::overtime, {.min = 0, .max = 3600});
+  s.advanced("part_axes", &LeastCutParameters::part_axes, {.min = 1, .max = 1000});
+  s.advanced("group_axes", &LeastCutParameters::group_axes, {.min = 1, .max = 1000});
+  s.advanced("quick_axes", &LeastCutParameters::quick_axes, {.min = 1, .max = 1000});
+  s.advanced("rays", &LeastCutParameters::rays, {.min = 1, .max = 100000});
+  s.advanced("blocking_share", &LeastCutParameters::blocking_share, {.min = 0, .max = 1});
+  s.advanced("firm_share", &LeastCutParameters::firm_share, {.min = 0, .max = 1});
+  s.advanced("clearance", &LeastCutParameters::clearance, {.min = 1, .max = 1000});
+  s.advanced("max_turns", &LeastCutParameters::max_turns, {.min = 0, .max = 10000});
+  s.advanced("set_candidates", &LeastCutParameters::set_candidates, {.min = 1, .max = 100000});
+  s.advanced("set_similarity", &LeastCutParameters::set_similarity, {.min = -1, .max = 1});
+  s.advanced("depth_samples", &LeastCutParameters::depth_samples, {.min = 1, .max = 100000});
+  s.advanced("finalists", &LeastCutParameters::finalists, {.min = 1, .max = 100000});
+  s.advanced("depth_resolution", &LeastCutParameters::depth_resolution, {.min = 1, .max = 1000});
+  s.advanced("depth_share", &LeastCutParameters::depth_share, {.min = 0.001, .max = 1});
+  s.advanced("outlook_depths", &LeastCutParameters::outlook_depths, {.min = 0, .max = 1000000});
+  s.advanced("depth_poses", &LeastCutParameters::depth_poses, {.min = 1, .max = 1e9});
 }
 
 namespace least_cut {
@@ -52,23 +53,22 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 
 /// What the steps of one run share; it lives in the memo of the oracle.
 struct Session {
-  Session(const SequenceQuery& query, PathOracle& oracle, const LeastCutParams& params)
+  Session(const SequenceQuery& query, PathOracle& oracle, const LeastCutParameters& params)
       : motions(query.assembly, oracle, query.constraints, params) {}
   ForcedMotions motions;
   double slowest_quick_step = 0;  // seconds
   bool proofs_tried = false;      // about the parts that are left
 };
 
-Session& session_of(const SequenceQuery& query, PathOracle& oracle, const LeastCutParams& params) {
-  return **oracle.memo()->get<std::shared_ptr<Session>>("least_cut", 0, RunContext{}, [&] {
-    return std::optional(std::make_shared<Session>(query, oracle, params));
-  });
+Session& session_of(const SequenceQuery& query, PathOracle& oracle, const LeastCutParameters& params) {
+  return **oracle.memo()->get<std::shared_ptr<Session>>(
+      "least_cut", 0, RunContext{}, [&] { return std::optional(std::make_shared<Session>(query, oracle, params)); });
 }
 
 /// One forced step.
 class Step {
  public:
-  Step(const LeastCutParams& params, const SequenceQuery& query, PathOracle& oracle, Session& session,
+  Step(const LeastCutParameters& params, const SequenceQuery& query, PathOracle& oracle, Session& session,
        RunContext& context)
       : params_(params),
         query_(query),
@@ -127,7 +127,7 @@ class Step {
     return std::max<std::size_t>(1, steps);
   }
 
-  const LeastCutParams& params_;
+  const LeastCutParameters& params_;
   const SequenceQuery& query_;
   PathOracle& oracle_;
   ForcedMotions& motions_;
@@ -164,8 +164,7 @@ SequenceResult LeastCut::plan(const SequenceQuery& query, PathOracle& oracle, Se
   least_cut::Session& session = least_cut::session_of(query, oracle, params_);
   if (!session.proofs_tried) oracle.forcing()->prove_left(result.unsolved, query.start, context);
   session.proofs_tried = true;
-  const AttemptResult* answer =
-      least_cut::Step(params_, query, oracle, session, context).make(result.unsolved);
+  const AttemptResult* answer = least_cut::Step(params_, query, oracle, session, context).make(result.unsolved);
   if (answer == nullptr) {
     result.outcome = context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
     return result;

@@ -11,7 +11,7 @@ namespace dismantle {
 /// With one, motions are compared while there is time; otherwise the most promising of a few is taken.
 class LeastCut final : public SequencePlanner {
  public:
-  explicit LeastCut(const LeastCutParams& params) : params_(params) {}
+  explicit LeastCut(const LeastCutParameters& params) : params_(params) {}
   SequencePlannerTraits traits() const noexcept override {
     return {.keeps_constraints = true, .any_start = true, .forces = true};
   }
@@ -19,7 +19,7 @@ class LeastCut final : public SequencePlanner {
                       RunContext& context) override;
 
  private:
-  LeastCutParams params_;
+  LeastCutParameters params_;
 };
 
 }  // namespace dismantle

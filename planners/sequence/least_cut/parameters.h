@@ -5,7 +5,7 @@
 
 namespace dismantle {
 
-struct LeastCutParams {
+struct LeastCutParameters {
   unsigned directions = 26;
   unsigned candidates = 24;
   double quick_margin = 2;       ///< time kept for each remaining part, as a multiple of the slowest quick step so far
@@ -26,7 +26,7 @@ struct LeastCutParams {
   double depth_share = 0.1;      ///< the same as a share of the depth; the larger of the two applies
   std::int64_t depth_poses = 200;  ///< poses measured per pair of parts for that comparison
   unsigned outlook_depths = 400;   ///< motions that are compared to estimate what is left to force after a step
-  static void describe(Schema<LeastCutParams>& schema);
+  static void describe(Schema<LeastCutParameters>& schema);
 };
 
 }  // namespace dismantle

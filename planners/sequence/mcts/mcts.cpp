@@ -6,27 +6,28 @@
 
 namespace dismantle {
 
-void MctsParams::describe(Schema<MctsParams>& s) {
-  s.add("simulations", &MctsParams::simulations,
+void MctsParameters::describe(Schema<MctsParameters>& s) {
+  s.add("simulations", &MctsParameters::simulations,
         {.unit = "1", .min = 1, .max = 1e9, .doc = "Simulated orders for each decision about the next search."});
   s.add(
-      "exploration", &MctsParams::exploration,
+      "exploration", &MctsParameters::exploration,
       {.unit = "1",
        .min = 0,
        .max = 1e3,
        .doc = "Weight of rarely visited parts against parts of high value: the constant of UCT. 0 = only the value."});
-  s.advanced("discount", &MctsParams::discount, {.min = 0, .max = 1, .min_open = true});
-  s.advanced("horizon", &MctsParams::horizon, {1, 1e6});
-  s.add("max_depth", &MctsParams::max_depth,
+  s.advanced("discount", &MctsParameters::discount, {.min = 0, .max = 1, .min_open = true});
+  s.advanced("horizon", &MctsParameters::horizon, {1, 1e6});
+  s.add("max_depth", &MctsParameters::max_depth,
         {.unit = "1", .min = 0, .max = 1e6, .doc = "Largest depth of the path search; 0 = no limit."});
-  s.add("max_attempts", &MctsParams::max_attempts,
+  s.add("max_attempts", &MctsParameters::max_attempts,
         {.unit = "1", .min = 0, .doc = "Largest number of searches in a run; 0 = no limit."});
 }
 
 SequenceResult Mcts::plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                           RunContext& context) {
   return each_group(query, [&](const std::vector<PlacedPart>& group) {
-    OneByOne sequence(query.assembly, ordered_group(query.assembly, group, PartOrder::as_given), oracle, observer, context);
+    OneByOne sequence(query.assembly, ordered_group(query.assembly, group, PartOrder::as_given), oracle, observer,
+                      context);
     mcts::Knowledge knowledge(query.assembly.parts.size(), group, params_.max_depth);
     const mcts::UctSettings settings{params_.simulations, params_.exploration, params_.discount, params_.horizon};
     Rng rng = context.rng.fork(1);

@@ -14,26 +14,27 @@
 
 namespace dismantle {
 
-void NdbgParams::describe(Schema<NdbgParams>& s) {
-  s.add_choice("order", &NdbgParams::order, part_orders(), "Order in which parts are removed when several are free.");
-  s.add("circles", &NdbgParams::circles,
+void NdbgParameters::describe(Schema<NdbgParameters>& s) {
+  s.add_choice("order", &NdbgParameters::order, part_orders(),
+               "Order in which parts are removed when several are free.");
+  s.add("circles", &NdbgParameters::circles,
         {.unit = "1",
          .min = 0,
          .max = 24,
          .doc = "Largest number of great circles in the arrangement: those of the flat faces with the most surface "
                 "area. The number of cells, and so the time, grows with the square. 0 = only the axes of the parts."});
-  s.add_choice("cells", &NdbgParams::cells,
+  s.add_choice("cells", &NdbgParameters::cells,
                {{"vertices", NdbgCells::vertices, "where two circles cross: along two flat contacts"},
                 {"arcs", NdbgCells::arcs, "and the arcs between: along one contact"},
                 {"faces", NdbgCells::faces, "and the faces: away from all contacts"}},
                "Cells of the arrangement that are examined.");
-  s.add("groups", &NdbgParams::groups,
+  s.add("groups", &NdbgParameters::groups,
         {.doc = "When no single part is free, remove the smallest free subassembly and disassemble it separately."});
-  s.advanced("group_proposals", &NdbgParams::group_proposals, {1});
-  s.add("searches", &NdbgParams::searches,
+  s.advanced("group_proposals", &NdbgParameters::group_proposals, {1});
+  s.add("searches", &NdbgParameters::searches,
         {.doc = "When no translation removes anything, run the path planner for each part, one level deeper in every "
                 "round. Off: blocking graphs alone."});
-  s.add("max_depth", &NdbgParams::max_depth,
+  s.add("max_depth", &NdbgParameters::max_depth,
         {.unit = "1", .min = 0, .max = 1e6, .doc = "Largest depth of the searches; 0 = no limit."});
 }
 

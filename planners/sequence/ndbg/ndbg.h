@@ -12,7 +12,7 @@ namespace dismantle {
 /// Which cells of the arrangement of directions are examined; each value includes those before it.
 enum class NdbgCells { vertices, arcs, faces };
 
-struct NdbgParams {
+struct NdbgParameters {
   PartOrder order = PartOrder::small_first;
   unsigned circles = 6;
   NdbgCells cells = NdbgCells::faces;
@@ -21,12 +21,12 @@ struct NdbgParams {
   unsigned group_proposals = 8;
   bool searches = false;
   unsigned max_depth = 0;
-  static void describe(Schema<NdbgParams>& schema);
+  static void describe(Schema<NdbgParameters>& schema);
 };
 
 class Ndbg final : public SequencePlanner {
  public:
-  explicit Ndbg(const NdbgParams& params) : params_(params) {}
+  explicit Ndbg(const NdbgParameters& params) : params_(params) {}
   SequencePlannerTraits traits() const noexcept override {
     return {.keeps_constraints = true, .any_start = true, .follows_objective = true};
   }
@@ -34,7 +34,7 @@ class Ndbg final : public SequencePlanner {
                       RunContext& context) override;
 
  private:
-  NdbgParams params_;
+  NdbgParameters params_;
 };
 
 namespace ndbg {

@@ -5,18 +5,18 @@
 
 namespace dismantle {
 
-void ProgressiveParams::describe(Schema<ProgressiveParams>& schema) {
-  schema.add_choice("order", &ProgressiveParams::order, part_orders(),
+void ProgressiveParameters::describe(Schema<ProgressiveParameters>& schema) {
+  schema.add_choice("order", &ProgressiveParameters::order, part_orders(),
                     "Order in which the parts left are tried within a round.");
-  schema.add("max_depth", &ProgressiveParams::max_depth,
+  schema.add("max_depth", &ProgressiveParameters::max_depth,
              {.unit = "1",
               .min = 0,
               .max = 1e6,
               .doc = "Largest depth of the path search; 0 = no limit: rounds continue until more depth cannot help."});
-  schema.add("deepen_always", &ProgressiveParams::deepen_always,
+  schema.add("deepen_always", &ProgressiveParameters::deepen_always,
              {.doc = "Go deeper with every round, as Algorithm 2 does. Off: only after a round in which no part left, "
                      "since most parts leave by a simple motion once their blockers have left."});
-  schema.add("last_pair_unlimited", &ProgressiveParams::last_pair_unlimited,
+  schema.add("last_pair_unlimited", &ProgressiveParameters::last_pair_unlimited,
              {.doc = "When two parts are left and max_depth is 0, their searches have no depth limit, because no other "
                      "part could be tried instead. Off: exactly Algorithm 2."});
 }

@@ -7,23 +7,23 @@
 
 namespace dismantle {
 
-struct ProgressiveParams {
+struct ProgressiveParameters {
   PartOrder order = PartOrder::small_first;
   unsigned max_depth = 0;
   bool deepen_always = false;
   bool last_pair_unlimited = true;
-  static void describe(Schema<ProgressiveParams>& schema);
+  static void describe(Schema<ProgressiveParameters>& schema);
 };
 
 class Progressive final : public SequencePlanner {
  public:
-  explicit Progressive(const ProgressiveParams& params) : params_(params) {}
+  explicit Progressive(const ProgressiveParameters& params) : params_(params) {}
   SequencePlannerTraits traits() const noexcept override { return {.any_start = true, .follows_objective = true}; }
   SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override;
 
  private:
-  ProgressiveParams params_;
+  ProgressiveParameters params_;
 };
 
 }  // namespace dismantle

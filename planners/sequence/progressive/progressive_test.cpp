@@ -9,15 +9,15 @@ namespace {
 
 using Asked = std::vector<std::pair<PartId, unsigned>>;
 
-ProgressiveParams algorithm_2() {
-  ProgressiveParams params;
+ProgressiveParameters algorithm_2() {
+  ProgressiveParameters params;
   params.deepen_always = true;
   params.last_pair_unlimited = false;
   return params;
 }
 
-ProgressiveParams as_given() {
-  ProgressiveParams params = algorithm_2();
+ProgressiveParameters as_given() {
+  ProgressiveParameters params = algorithm_2();
   params.order = PartOrder::as_given;
   return params;
 }
@@ -73,7 +73,7 @@ TEST(Progressive, RepeatsRoundsAtTheDepthCap) {
   FakeMachine machine(4);
   machine.before = {{1}, {2}, {3}, {}};  // only order 3 2 1, against the order of trying: one removal per round
   machine.depth = {2, 2, 2, 2};
-  ProgressiveParams params = as_given();
+  ProgressiveParameters params = as_given();
   params.max_depth = 2;
   Progressive planner(params);
   const FakeRun run = run_on(planner, machine, seeded(1));
@@ -86,7 +86,7 @@ TEST(Progressive, RepeatsRoundsAtTheDepthCap) {
 TEST(Progressive, SaysThatTheDepthCapWasInTheWay) {
   FakeMachine machine(2);
   machine.depth = {5, 5};
-  ProgressiveParams params = algorithm_2();
+  ProgressiveParameters params = algorithm_2();
   params.max_depth = 3;
   Progressive planner(params);
   const FakeRun run = run_on(planner, machine, seeded(1));
@@ -99,7 +99,7 @@ TEST(Progressive, TriesPartsInTheOrderChosen) {
   FakeMachine machine(3);
   machine.volume = {5, 1, 9};
   const auto first_asked = [&](PartOrder order) {
-    ProgressiveParams params = algorithm_2();
+    ProgressiveParameters params = algorithm_2();
     params.order = order;
     Progressive planner(params);
     return run_on(planner, machine, seeded(1)).asked.at(0).first;
@@ -125,13 +125,13 @@ TEST(Progressive, HintsOnlyWhenThereAreThreads) {
 }
 
 TEST(Progressive, ParametersAreDeclaredInFull) {
-  EXPECT_TRUE(problems_of_schema(Schema<ProgressiveParams>().specs()).empty());
+  EXPECT_TRUE(problems_of_schema(Schema<ProgressiveParameters>().specs()).empty());
 }
 
 TEST(Progressive, GivesTheLastTwoPartsAllTheDepthTheyNeed) {
   FakeMachine machine(3);
   machine.depth = {1, 7, 9};
-  Progressive planner(ProgressiveParams{});
+  Progressive planner(ProgressiveParameters{});
   const FakeRun run = run_on(planner, machine, seeded(1));
   expect_lawful(run, machine);
   EXPECT_EQ(run.result.outcome, Outcome::solved);
@@ -142,7 +142,7 @@ TEST(Progressive, StaysAtADepthAsLongAsPartsLeave) {
   FakeMachine machine(5);
   machine.before = {{1}, {2}, {3}, {}, {0}};  // against the order of trying: one removal per round
   machine.depth = {1, 1, 1, 1, 2};
-  ProgressiveParams params = as_given();
+  ProgressiveParameters params = as_given();
   params.deepen_always = false;
   Progressive planner(params);
   const FakeRun run = run_on(planner, machine, seeded(1));

@@ -4,8 +4,8 @@
 
 namespace dismantle {
 
-void QueueParams::describe(Schema<QueueParams>& schema) {
-  schema.add_choice("order", &QueueParams::order, part_orders(),
+void QueueParameters::describe(Schema<QueueParameters>& schema) {
+  schema.add_choice("order", &QueueParameters::order, part_orders(),
                     "Order in which the parts stand in the queue at the beginning.");
 }
 

@@ -7,20 +7,20 @@
 
 namespace dismantle {
 
-struct QueueParams {
+struct QueueParameters {
   PartOrder order = PartOrder::small_first;
-  static void describe(Schema<QueueParams>& schema);
+  static void describe(Schema<QueueParameters>& schema);
 };
 
 class Queue final : public SequencePlanner {
  public:
-  explicit Queue(const QueueParams& params) : params_(params) {}
+  explicit Queue(const QueueParameters& params) : params_(params) {}
   SequencePlannerTraits traits() const noexcept override { return {.any_start = true}; }
   SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override;
 
  private:
-  QueueParams params_;
+  QueueParameters params_;
 };
 
 }  // namespace dismantle

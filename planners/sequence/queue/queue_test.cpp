@@ -11,7 +11,7 @@ TEST(Queue, FailedPartsGoToTheBack) {
   FakeMachine machine(4);
   machine.before[0] = {2};
   machine.before[1] = {0};
-  QueueParams params;
+  QueueParameters params;
   params.order = PartOrder::as_given;
   Queue planner(params);
   const FakeRun run = run_on(planner, machine, seeded(1));
@@ -29,7 +29,7 @@ TEST(Queue, SolvesEveryMachineThatHasAnOrder) {
   Rng rng(11);
   for (int trial = 0; trial < 200; ++trial) {
     const FakeMachine machine = FakeMachine::random(1 + rng.below(20), 0.5, 5, rng);
-    Queue planner(QueueParams{});
+    Queue planner(QueueParameters{});
     const FakeRun run = run_on(planner, machine, seeded(1));
     expect_lawful(run, machine);
     EXPECT_EQ(run.result.outcome, Outcome::solved);
@@ -40,7 +40,7 @@ TEST(Queue, SolvesEveryMachineThatHasAnOrder) {
 TEST(Queue, EndsWhenAllFailedSinceTheLastRemoval) {
   FakeMachine machine(5);
   machine.before = {{1}, {0}, {}, {0}, {1}};
-  Queue planner(QueueParams{});
+  Queue planner(QueueParameters{});
   const FakeRun run = run_on(planner, machine, seeded(1));
   expect_lawful(run, machine);
   EXPECT_EQ(run.result.outcome, Outcome::exhausted);
@@ -48,7 +48,7 @@ TEST(Queue, EndsWhenAllFailedSinceTheLastRemoval) {
   EXPECT_EQ(run.asked.size(), 7u);  // 0 1 2, then 3 4 0 1
 }
 
-TEST(Queue, ParametersAreDeclaredInFull) { EXPECT_TRUE(problems_of_schema(Schema<QueueParams>().specs()).empty()); }
+TEST(Queue, ParametersAreDeclaredInFull) { EXPECT_TRUE(problems_of_schema(Schema<QueueParameters>().specs()).empty()); }
 
 }  // namespace
 }  // namespace dismantle

@@ -16,15 +16,16 @@ void shuffle(std::vector<PartId>& parts, Rng& rng) {
 
 }  // namespace
 
-void RandomParams::describe(Schema<RandomParams>& schema) {
-  schema.add("max_depth", &RandomParams::max_depth,
+void RandomParameters::describe(Schema<RandomParameters>& schema) {
+  schema.add("max_depth", &RandomParameters::max_depth,
              {.unit = "1", .min = 0, .max = 1e6, .doc = "Depth of the path search; 0 = no limit."});
 }
 
 SequenceResult Random::plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                             RunContext& context) {
   return each_group(query, [&](const std::vector<PlacedPart>& group) {
-    OneByOne sequence(query.assembly, ordered_group(query.assembly, group, PartOrder::as_given), oracle, observer, context);
+    OneByOne sequence(query.assembly, ordered_group(query.assembly, group, PartOrder::as_given), oracle, observer,
+                      context);
     bool removed = true;
     while (removed && !sequence.done()) {  // a removal may free others: draw all again
       removed = false;

@@ -6,20 +6,20 @@
 
 namespace dismantle {
 
-struct RandomParams {
+struct RandomParameters {
   unsigned max_depth = 0;
-  static void describe(Schema<RandomParams>& schema);
+  static void describe(Schema<RandomParameters>& schema);
 };
 
 class Random final : public SequencePlanner {
  public:
-  explicit Random(const RandomParams& params) : params_(params) {}
+  explicit Random(const RandomParameters& params) : params_(params) {}
   SequencePlannerTraits traits() const noexcept override { return {.any_start = true}; }
   SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
                       RunContext& context) override;
 
  private:
-  RandomParams params_;
+  RandomParameters params_;
 };
 
 }  // namespace dismantle

@@ -10,7 +10,7 @@ namespace dismantle::state_based {
 using Eigen::Vector3d;
 
 MotionStates::MotionStates(blocking::DisassemblyState& state, blocking::StraightMotion& straight,
-                           const blocking::PairSweep& sweep, double tolerance, const MotionStateParams& params)
+                           const blocking::PairSweep& sweep, double tolerance, const MotionStateParameters& params)
     : state_(state), straight_(straight), sweep_(sweep), tolerance_(tolerance), params_(params) {}
 
 std::size_t MotionStates::size(SubassemblyId id) const {

@@ -17,7 +17,7 @@ using blocking::GroupState;
 using blocking::Subassemblies;
 using blocking::SubassemblyId;
 
-struct MotionStateParams {
+struct MotionStateParameters {
   std::size_t states = 24;  ///< most states of one part
   unsigned stops = 1;       ///< states per translation: at contact, and evenly spaced before it
   unsigned halvings = 12;
@@ -31,7 +31,7 @@ class MotionStates {
  public:
   /// `tolerance`: of the verifier, assembly units. All references must outlive this.
   MotionStates(blocking::DisassemblyState& state, blocking::StraightMotion& straight, const blocking::PairSweep& sweep,
-               double tolerance, const MotionStateParams& params);
+               double tolerance, const MotionStateParameters& params);
 
   /// Waypoints of a path that removes a single part: translations from its pose in the group, the first zero. Extends
   /// the known states, breadth first. Nothing: no path through up to params.states of them. Paths that were refused
@@ -72,7 +72,7 @@ class MotionStates {
   blocking::StraightMotion& straight_;
   const blocking::PairSweep& sweep_;
   double tolerance_;
-  MotionStateParams params_;
+  MotionStateParameters params_;
   std::map<SubassemblyId, std::vector<State>> states_;
   std::map<SubassemblyId, Edge> last_;
   std::map<SubassemblyId, std::set<Edge>> refused_;

@@ -12,32 +12,33 @@
 
 namespace dismantle {
 
-void StateBasedParams::describe(Schema<StateBasedParams>& s) {
-  s.add_choice("order", &StateBasedParams::order, part_orders(),
+void StateBasedParameters::describe(Schema<StateBasedParameters>& s) {
+  s.add_choice("order", &StateBasedParameters::order, part_orders(),
                "Order in which translations are tried, and searches of parts with equal evaluation.");
-  s.add_choice("evaluation", &StateBasedParams::evaluation,
+  s.add_choice("evaluation", &StateBasedParameters::evaluation,
                {{"fewest_blockers", StateBasedEvaluation::fewest_blockers,
                  "the part that the fewest others block, from any state that it has reached"},
                 {"most_useful", StateBasedEvaluation::most_useful, "the part that blocks the most others"}},
                "Which part is searched for first when no translation removes one.");
-  s.add("states", &StateBasedParams::states,
+  s.add("states", &StateBasedParameters::states,
         {.unit = "1",
          .min = 1,
          .max = 1e5,
          .doc = "Largest number of motion states of one part. Paths of many short translations need more; time grows "
                 "in proportion."});
-  s.advanced("stops", &StateBasedParams::stops, {1, 100});
-  s.advanced("halvings", &StateBasedParams::halvings, {1, 50});
-  s.advanced("retreat", &StateBasedParams::retreat, {0, 1e6});
-  s.advanced("least_step", &StateBasedParams::least_step, {.min = 0, .max = 1e6, .min_open = true});
-  s.add("groups", &StateBasedParams::groups, {.doc = "When no single part is free, remove the smallest free group."});
-  s.advanced("group_proposals", &StateBasedParams::group_proposals, {1});
-  s.add("searches", &StateBasedParams::searches,
+  s.advanced("stops", &StateBasedParameters::stops, {1, 100});
+  s.advanced("halvings", &StateBasedParameters::halvings, {1, 50});
+  s.advanced("retreat", &StateBasedParameters::retreat, {0, 1e6});
+  s.advanced("least_step", &StateBasedParameters::least_step, {.min = 0, .max = 1e6, .min_open = true});
+  s.add("groups", &StateBasedParameters::groups,
+        {.doc = "When no single part is free, remove the smallest free group."});
+  s.advanced("group_proposals", &StateBasedParameters::group_proposals, {1});
+  s.add("searches", &StateBasedParameters::searches,
         {.doc = "When translations remove nothing, run the path planner for each part, one level deeper in every "
                 "round. Only these searches find rotations."});
-  s.add("resume", &StateBasedParams::resume,
+  s.add("resume", &StateBasedParameters::resume,
         {.doc = "A search by the path planner resumes the last one of the same part."});
-  s.add("max_depth", &StateBasedParams::max_depth,
+  s.add("max_depth", &StateBasedParameters::max_depth,
         {.unit = "1", .min = 0, .max = 1e6, .doc = "Largest depth of the searches; 0 = no limit."});
 }
 
@@ -56,8 +57,8 @@ SequenceResult StateBased::plan(const SequenceQuery& query, PathOracle& oracle, 
     straight = std::make_unique<StraightMotion>(state, oracle, *sweep, directions_of(assembly));
     states = std::make_unique<state_based::MotionStates>(
         state, *straight, *sweep, oracle.tolerance(),
-        state_based::MotionStateParams{params_.states, params_.stops, params_.halvings, params_.retreat,
-                                       params_.least_step});
+        state_based::MotionStateParameters{params_.states, params_.stops, params_.halvings, params_.retreat,
+                                           params_.least_step});
     state.add_listener(*straight);
     list.add(std::make_unique<FreePart>(state, *straight));
     list.add(std::make_unique<state_based::TranslateOut>(state, *states, oracle));

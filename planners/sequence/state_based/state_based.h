@@ -11,7 +11,7 @@ namespace dismantle {
 /// Which part is searched for first.
 enum class StateBasedEvaluation { fewest_blockers, most_useful };
 
-struct StateBasedParams {
+struct StateBasedParameters {
   PartOrder order = PartOrder::small_first;
   StateBasedEvaluation evaluation = StateBasedEvaluation::fewest_blockers;
   unsigned states = 24;
@@ -29,12 +29,12 @@ struct StateBasedParams {
   bool searches = true;
   bool resume = true;
   unsigned max_depth = 0;
-  static void describe(Schema<StateBasedParams>& schema);
+  static void describe(Schema<StateBasedParameters>& schema);
 };
 
 class StateBased final : public SequencePlanner {
  public:
-  explicit StateBased(const StateBasedParams& params) : params_(params) {}
+  explicit StateBased(const StateBasedParameters& params) : params_(params) {}
   SequencePlannerTraits traits() const noexcept override {
     return {.keeps_constraints = true, .any_start = true, .follows_objective = true};
   }
@@ -42,7 +42,7 @@ class StateBased final : public SequencePlanner {
                       RunContext& context) override;
 
  private:
-  StateBasedParams params_;
+  StateBasedParameters params_;
 };
 
 }  // namespace dismantle

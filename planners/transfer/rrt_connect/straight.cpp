@@ -29,7 +29,7 @@ double reach(const Assembly& assembly, PartBoxes& boxes, const std::vector<Place
   return most;
 }
 
-Pose shift(const Vector3d& way) { return {way, Eigen::Quaterniond::Identity()}; }
+Pose shift(const Vector3d& direction) { return {direction, Eigen::Quaterniond::Identity()}; }
 
 }  // namespace
 

@@ -15,10 +15,11 @@ constexpr std::uint64_t kMostTriangles = 50'000'000;  // of one model; the limit
 
 }  // namespace
 
-void LdrawParams::describe(Schema<LdrawParams>& s) {
-  s.add("library", &LdrawParams::library,
-        {.doc = "Folder of the LDraw parts library (it holds 'parts' and 'p'). Empty: $LDRAWDIR, or a folder 'library' or "
-                "'ldraw' beside the model or beside its folder."});
+void LdrawParameters::describe(Schema<LdrawParameters>& s) {
+  s.add("library", &LdrawParameters::library,
+        {.doc =
+             "Folder of the LDraw parts library (it holds 'parts' and 'p'). Empty: $LDRAWDIR, or a folder 'library' or "
+             "'ldraw' beside the model or beside its folder."});
 }
 
 std::optional<std::uint64_t> LdrawImporter::count_triangles(const std::filesystem::path& file) const {

@@ -10,14 +10,14 @@
 namespace dismantle::ldraw {
 
 /// `importers: {ldraw: ...}` in a configuration.
-struct LdrawParams {
+struct LdrawParameters {
   std::string library;
-  static void describe(Schema<LdrawParams>& s);
+  static void describe(Schema<LdrawParameters>& s);
 };
 
 class LdrawImporter : public Importer {
  public:
-  explicit LdrawImporter(const LdrawParams& params = {}) : params_(params) {}
+  explicit LdrawImporter(const LdrawParameters& params = {}) : params_(params) {}
   std::vector<std::string> extensions() const override { return {"ldr", "mpd"}; }
   std::optional<std::uint64_t> count_triangles(const std::filesystem::path& file) const override;
   std::vector<RawPart> read(const std::filesystem::path& file, const RunContext& context) override;
@@ -25,7 +25,7 @@ class LdrawImporter : public Importer {
   std::vector<std::filesystem::path> referenced_files(const std::filesystem::path& file) const override;
 
  private:
-  LdrawParams params_;
+  LdrawParameters params_;
 };
 
 }  // namespace dismantle::ldraw

@@ -23,20 +23,20 @@ std::string ending(const std::filesystem::path& file) {
 
 }  // namespace
 
-void MeshFilesParams::describe(Schema<MeshFilesParams>& s) {
-  s.add("time_limit", &MeshFilesParams::time_limit,
+void MeshFilesParameters::describe(Schema<MeshFilesParameters>& s) {
+  s.add("time_limit", &MeshFilesParameters::time_limit,
         {.unit = "s", .min = 0, .max = 1e6, .doc = "Time limit for reading a glTF, 3MF or DAE file; 0 = no limit."});
-  s.add("memory_limit", &MeshFilesParams::memory_limit,
+  s.add("memory_limit", &MeshFilesParameters::memory_limit,
         {.unit = "MiB",
          .min = 0,
          .max = 1e7,
          .doc = "Address space limit of the process that reads a glTF, 3MF or DAE file; 0 = no limit."});
 }
 
-MeshFiles::MeshFiles(const MeshFilesParams& params)
+MeshFiles::MeshFiles(const MeshFilesParameters& params)
     : MeshFiles(params, reader_process::installed_reader("assimp_reader")) {}
 
-MeshFiles::MeshFiles(const MeshFilesParams& params, std::filesystem::path reader)
+MeshFiles::MeshFiles(const MeshFilesParameters& params, std::filesystem::path reader)
     : params_(params), reader_(std::move(reader)) {}
 
 std::vector<RawPart> MeshFiles::read_with_assimp(const std::filesystem::path& file, const RunContext& context) const {

@@ -49,38 +49,39 @@ void check_ends(const fs::path& file) {
 
 }  // namespace
 
-void StepParams::describe(Schema<StepParams>& s) {
-  s.add("linear_deflection", &StepParams::linear_deflection,
+void StepParameters::describe(Schema<StepParameters>& s) {
+  s.add("linear_deflection", &StepParameters::linear_deflection,
         {.unit = "1",
          .min = 1e-6,
          .max = 0.5,
          .doc = "Largest distance between a body and its triangles, as a share of the diagonal of the body's box."});
-  s.add("assembly_deflection", &StepParams::assembly_deflection,
+  s.add("assembly_deflection", &StepParameters::assembly_deflection,
         {.unit = "1",
          .min = 0,
          .max = 0.5,
          .doc =
              "The same as a share of the diagonal of the whole assembly; the smaller distance applies. 0 = no bound."});
-  s.add("angular_deflection", &StepParams::angular_deflection,
+  s.add("angular_deflection", &StepParameters::angular_deflection,
         {.unit = "rad",
          .min = 0.01,
          .max = 1.5,
          .doc = "Largest angle between the directions of a curve, or normals of a surface, at neighbouring vertices."});
-  s.add("triangle_limit", &StepParams::triangle_limit,
+  s.add("triangle_limit", &StepParameters::triangle_limit,
         {.unit = "1", .min = 1, .max = 1e9, .doc = "Files with more triangles are refused."});
-  s.add("time_limit", &StepParams::time_limit,
+  s.add("time_limit", &StepParameters::time_limit,
         {.unit = "s", .min = 0, .max = 1e6, .doc = "Time limit for reading a file; 0 = no limit."});
-  s.add("memory_limit", &StepParams::memory_limit,
+  s.add("memory_limit", &StepParameters::memory_limit,
         {.unit = "MiB",
          .min = 0,
          .max = 1e7,
          .doc = "Address space limit of the process that reads a file; 0 = no limit."});
 }
 
-StepImporter::StepImporter(const StepParams& params)
+StepImporter::StepImporter(const StepParameters& params)
     : StepImporter(params, reader_process::installed_reader("step_reader")) {}
 
-StepImporter::StepImporter(const StepParams& params, fs::path reader) : params_(params), reader_(std::move(reader)) {}
+StepImporter::StepImporter(const StepParameters& params, fs::path reader)
+    : params_(params), reader_(std::move(reader)) {}
 
 std::vector<std::string> StepImporter::extensions() const { return {"step", "stp", "p21", "stpz"}; }
 

@@ -14,11 +14,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-struct AcmeWalledInParams {
+struct AcmeWalledInParameters {
   std::int64_t points = 8;
 
-  static void describe(dismantle::Schema<AcmeWalledInParams>& s) {
-    s.add("points", &AcmeWalledInParams::points,
+  static void describe(dismantle::Schema<AcmeWalledInParameters>& s) {
+    s.add("points", &AcmeWalledInParameters::points,
           {.unit = "1",
            .min = 1,
            .max = 100,
@@ -28,7 +28,7 @@ struct AcmeWalledInParams {
 
 class AcmeWalledIn final : public dismantle::ImmobilityProver {
  public:
-  explicit AcmeWalledIn(const AcmeWalledInParams& params) : params_(params) {}
+  explicit AcmeWalledIn(const AcmeWalledInParameters& params) : params_(params) {}
 
   dismantle::ProverTraits traits() const noexcept override {
     return {.effort = dismantle::ProofEffort::low, .min_parts = 2, .max_parts = 2, .depends_on_poses = false};
@@ -43,7 +43,8 @@ class AcmeWalledIn final : public dismantle::ImmobilityProver {
     // Separation is symmetric: either part may be the enclosed one.
     for (const auto& [inside, around] : {std::pair(a, b), std::pair(b, a)}) {
       const double allowed = query.assembly.initial_overlap(inside, around) + query.margin();
-      const auto point = walled_in(*query.assembly.parts[inside].mesh, *query.assembly.parts[around].mesh, allowed, context);
+      const auto point =
+          walled_in(*query.assembly.parts[inside].mesh, *query.assembly.parts[around].mesh, allowed, context);
       if (context.should_stop()) return std::nullopt;
       if (point) return certificate(query, inside, around, *point, allowed);
     }
@@ -100,20 +101,23 @@ class AcmeWalledIn final : public dismantle::ImmobilityProver {
                                             dismantle::PartId around, const DeepPoint& point, double allowed) {
     dismantle::Certificate c;
     c.parts = {inside, around};
-    c.numbers = {{"point", {point.at.x(), point.at.y(), point.at.z()}}, {"depth", {point.depth}}, {"allowed", {allowed}}};
+    c.numbers = {
+        {"point", {point.at.x(), point.at.y(), point.at.z()}}, {"depth", {point.depth}}, {"allowed", {allowed}}};
     const double scale = query.assembly.normalization.scale;  // the text uses input units
     c.text = "'" + query.assembly.parts[inside].name + "' is walled in by '" + query.assembly.parts[around].name +
-             "': a point of it lies " + std::to_string(point.depth / scale) + " below its surface, and would have to pass " +
-             "a closed wall; " + std::to_string(allowed / scale) + " is allowed";
+             "': a point of it lies " + std::to_string(point.depth / scale) +
+             " below its surface, and would have to pass " + "a closed wall; " + std::to_string(allowed / scale) +
+             " is allowed";
     return c;
   }
 
-  AcmeWalledInParams params_;
+  AcmeWalledInParameters params_;
 };
 
 }  // namespace
 
 DISMANTLE_PLUGIN("acme.walled_in", "0.1.0", "MIT", "https://example.org") {
-  r.add<dismantle::ImmobilityProver, AcmeWalledIn, AcmeWalledInParams>(
-      "acme.walled_in", "A point deep inside one part is walled in by a closed surface of the other.", {.source = "own"});
+  r.add<dismantle::ImmobilityProver, AcmeWalledIn, AcmeWalledInParameters>(
+      "acme.walled_in", "A point deep inside one part is walled in by a closed surface of the other.",
+      {.source = "own"});
 }

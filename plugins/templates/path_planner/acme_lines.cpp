@@ -6,21 +6,21 @@ namespace {
 
 using Eigen::Vector3d;
 
-struct AcmeLinesParams {
+struct AcmeLinesParameters {
   std::int64_t directions = 60;
   double step = 0.05;
   double share = 0.5;
 
-  static void describe(dismantle::Schema<AcmeLinesParams>& s) {
-    s.add("directions", &AcmeLinesParams::directions,
+  static void describe(dismantle::Schema<AcmeLinesParameters>& s) {
+    s.add("directions", &AcmeLinesParameters::directions,
           {.unit = "1", .min = 6, .doc = "Directions that are tried: six along the axes, all others are random."});
-    s.add("step", &AcmeLinesParams::step,
+    s.add("step", &AcmeLinesParameters::step,
           {.unit = "radii of the part",
            .min = 0,
            .max = 1,
            .min_open = true,
            .doc = "Distance between two states that are checked on a line."});
-    s.add("share", &AcmeLinesParams::share,
+    s.add("share", &AcmeLinesParameters::share,
           {.unit = "1",
            .min = 0,
            .max = 1,
@@ -34,7 +34,7 @@ constexpr dismantle::Capabilities kNeeds{.distance = true};
 
 class AcmeLines final : public dismantle::FunctionPathPlanner {
  public:
-  explicit AcmeLines(const AcmeLinesParams& params) : params_(params) {}
+  explicit AcmeLines(const AcmeLinesParameters& params) : params_(params) {}
 
   dismantle::PathPlannerTraits traits() const noexcept override { return {.needs = kNeeds, .concurrent = true}; }
 
@@ -93,12 +93,12 @@ class AcmeLines final : public dismantle::FunctionPathPlanner {
     return all;
   }
 
-  AcmeLinesParams params_;
+  AcmeLinesParameters params_;
 };
 
 }  // namespace
 
 DISMANTLE_PLUGIN("acme.lines", "0.1.0", "MIT", "https://example.org") {
-  r.add<dismantle::PathPlanner, AcmeLines, AcmeLinesParams>(
+  r.add<dismantle::PathPlanner, AcmeLines, AcmeLinesParameters>(
       "acme.lines", "Straight lines along the axes and in random directions.", {.source = "own", .needs = kNeeds});
 }

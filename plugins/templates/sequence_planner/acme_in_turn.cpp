@@ -9,24 +9,24 @@ namespace {
 
 enum class First { as_given, small, large };
 
-struct AcmeInTurnParams {
+struct AcmeInTurnParameters {
   First first = First::small;
   std::int64_t max_depth = 0;
 
-  static void describe(dismantle::Schema<AcmeInTurnParams>& s) {
-    s.add_choice("first", &AcmeInTurnParams::first,
+  static void describe(dismantle::Schema<AcmeInTurnParameters>& s) {
+    s.add_choice("first", &AcmeInTurnParameters::first,
                  {{"as_given", First::as_given, "as the assembly lists its parts"},
                   {"small", First::small, "ascending volume"},
                   {"large", First::large, "descending volume"}},
                  "Order in which parts are asked for.");
-    s.add("max_depth", &AcmeInTurnParams::max_depth,
+    s.add("max_depth", &AcmeInTurnParameters::max_depth,
           {.unit = "1", .min = 0, .max = 1e6, .doc = "Largest depth of a path search; 0 = no limit."});
   }
 };
 
 class AcmeInTurn final : public dismantle::SequencePlanner {
  public:
-  explicit AcmeInTurn(const AcmeInTurnParams& params) : params_(params) {}
+  explicit AcmeInTurn(const AcmeInTurnParameters& params) : params_(params) {}
 
   // Without other traits the start is one group of all parts as assembled, and there are no constraints.
   dismantle::SequenceResult plan(const dismantle::SequenceQuery& query, dismantle::PathOracle& oracle,
@@ -109,12 +109,12 @@ class AcmeInTurn final : public dismantle::SequencePlanner {
     result.outcome = stopped ? end : depth_limit ? dismantle::Outcome::depth_limit : dismantle::Outcome::exhausted;
   }
 
-  AcmeInTurnParams params_;
+  AcmeInTurnParameters params_;
 };
 
 }  // namespace
 
 DISMANTLE_PLUGIN("acme.in_turn", "0.1.0", "MIT", "https://example.org") {
-  r.add<dismantle::SequencePlanner, AcmeInTurn, AcmeInTurnParams>(
+  r.add<dismantle::SequencePlanner, AcmeInTurn, AcmeInTurnParameters>(
       "acme.in_turn", "One part after the other, until none leaves.", {.source = "own"});
 }

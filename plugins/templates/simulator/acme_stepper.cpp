@@ -4,27 +4,27 @@
 #include <limits>
 #include <stdexcept>
 
-#include "dismantle/plugin/finite.h"
 #include "dismantle/geometry/hull.h"
 #include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/plugin.h"
+#include "dismantle/plugin/finite.h"
 
 namespace {
 
 using Eigen::Vector3d;
 
-struct AcmeStepperParams {
+struct AcmeStepperParameters {
   double speed = 1.0;
   double time_step = 0.01;
   double share = 0.5;
 
-  static void describe(dismantle::Schema<AcmeStepperParams>& s) {
-    s.add("speed", &AcmeStepperParams::speed,
+  static void describe(dismantle::Schema<AcmeStepperParameters>& s) {
+    s.add("speed", &AcmeStepperParameters::speed,
           {.unit = "assembly units / s", .min = 0, .min_open = true, .doc = "Speed of a body that is pushed."});
-    s.add("time_step", &AcmeStepperParams::time_step,
+    s.add("time_step", &AcmeStepperParameters::time_step,
           {.unit = "s", .min = 0, .min_open = true, .doc = "Length of a step."});
     s.add(
-        "share", &AcmeStepperParams::share,
+        "share", &AcmeStepperParameters::share,
         {.unit = "1",
          .min = 0,
          .max = 1,
@@ -44,7 +44,7 @@ struct Trees final : dismantle::PreparedAssembly {
 class AcmeStepperWorld final : public dismantle::World {
  public:
   AcmeStepperWorld(const dismantle::Assembly& assembly, const Trees& trees, dismantle::Scene scene,
-                   dismantle::MotionSpace space, const AcmeStepperParams& params)
+                   dismantle::MotionSpace space, const AcmeStepperParameters& params)
       : assembly_(assembly), trees_(trees), scene_(std::move(scene)), space_(space), params_(params) {
     if (scene_.moving.size() != 1) throw std::invalid_argument("acme.stepper moves exactly one part at a time");
     const auto box = surface().box();
@@ -137,7 +137,7 @@ class AcmeStepperWorld final : public dismantle::World {
   const Trees& trees_;
   dismantle::Scene scene_;
   dismantle::MotionSpace space_;
-  AcmeStepperParams params_;
+  AcmeStepperParameters params_;
   Vector3d center_ = Vector3d::Zero();
   double radius_ = 0;
   std::vector<Vector3d> fixed_points_;
@@ -146,7 +146,7 @@ class AcmeStepperWorld final : public dismantle::World {
 
 class AcmeStepper final : public dismantle::Simulator {
  public:
-  explicit AcmeStepper(const AcmeStepperParams& params) : params_(params) {}
+  explicit AcmeStepper(const AcmeStepperParameters& params) : params_(params) {}
 
   dismantle::Capabilities capabilities() const noexcept override { return kProvides; }
 
@@ -168,12 +168,12 @@ class AcmeStepper final : public dismantle::Simulator {
   }
 
  private:
-  AcmeStepperParams params_;
+  AcmeStepperParameters params_;
 };
 
 }  // namespace
 
 DISMANTLE_PLUGIN("acme.stepper", "0.1.0", "MIT", "https://example.org") {
-  r.add<dismantle::Simulator, AcmeStepper, AcmeStepperParams>("acme.stepper", "Quasi-static steps, sampled contact.",
-                                                              {.source = "own", .provides = kProvides});
+  r.add<dismantle::Simulator, AcmeStepper, AcmeStepperParameters>(
+      "acme.stepper", "Quasi-static steps, sampled contact.", {.source = "own", .provides = kProvides});
 }

@@ -8,11 +8,11 @@
 
 namespace {
 
-struct AcmeFromAboveParams {
+struct AcmeFromAboveParameters {
   double angle = 1.0;
 
-  static void describe(dismantle::Schema<AcmeFromAboveParams>& s) {
-    s.add("angle", &AcmeFromAboveParams::angle,
+  static void describe(dismantle::Schema<AcmeFromAboveParameters>& s) {
+    s.add("angle", &AcmeFromAboveParameters::angle,
           {.unit = "rad",
            .min = 0,
            .max = 3.2,
@@ -22,7 +22,7 @@ struct AcmeFromAboveParams {
 
 class AcmeFromAbove final : public dismantle::StepCheck {
  public:
-  explicit AcmeFromAbove(const AcmeFromAboveParams& params) : params_(params) {}
+  explicit AcmeFromAbove(const AcmeFromAboveParameters& params) : params_(params) {}
 
   /// It reads nothing of the step before.
   dismantle::StepCheckTraits traits() const noexcept override { return {}; }
@@ -46,12 +46,12 @@ class AcmeFromAbove final : public dismantle::StepCheck {
   }
 
  private:
-  AcmeFromAboveParams params_;
+  AcmeFromAboveParameters params_;
 };
 
 }  // namespace
 
 DISMANTLE_PLUGIN("acme.from_above", "0.1.0", "MIT", "https://example.org") {
-  r.add<dismantle::StepCheck, AcmeFromAbove, AcmeFromAboveParams>("acme.from_above", "Parts are put in from above.",
-                                                                  {.source = "own"});
+  r.add<dismantle::StepCheck, AcmeFromAbove, AcmeFromAboveParameters>("acme.from_above", "Parts are put in from above.",
+                                                                      {.source = "own"});
 }

@@ -13,27 +13,25 @@ namespace {
 using dismantle::Pose;
 using Eigen::Vector3d;
 
-struct AcmeTwoTreesParams {
+struct AcmeTwoTreesParameters {
   double range = 1;
   double step = 0.05;
   double share = 0.4;
   std::int64_t max_checks = 30'000;
 
-  static void describe(dismantle::Schema<AcmeTwoTreesParams>& s) {
-    s.add("range", &AcmeTwoTreesParams::range,
+  static void describe(dismantle::Schema<AcmeTwoTreesParameters>& s) {
+    s.add("range", &AcmeTwoTreesParameters::range,
           {.unit = "radii of the group", .min = 0, .min_open = true, .doc = "Longest extension of a tree."});
-    s.add("step", &AcmeTwoTreesParams::step,
+    s.add("step", &AcmeTwoTreesParameters::step,
           {.unit = "radii of the group",
            .min = 0,
            .max = 1,
            .min_open = true,
            .doc = "Distance between neighbouring state checks on an extension."});
-    s.add("share", &AcmeTwoTreesParams::share,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .doc = "Share of the verifier's tolerance by which a state may penetrate."});
-    s.add("max_checks", &AcmeTwoTreesParams::max_checks,
+    s.add(
+        "share", &AcmeTwoTreesParameters::share,
+        {.unit = "1", .min = 0, .max = 1, .doc = "Share of the verifier's tolerance by which a state may penetrate."});
+    s.add("max_checks", &AcmeTwoTreesParameters::max_checks,
           {.unit = "1", .min = 0, .doc = "Most state checks for one transfer; 0 = only the limit of the run."});
   }
 };
@@ -43,7 +41,7 @@ constexpr dismantle::Capabilities kNeeds{.distance = true};
 /// One transfer. A configuration is the displacement of the whole group from its start pose.
 class Transfer {
  public:
-  Transfer(const AcmeTwoTreesParams& params, const dismantle::TransferQuery& query, dismantle::RunContext& context)
+  Transfer(const AcmeTwoTreesParameters& params, const dismantle::TransferQuery& query, dismantle::RunContext& context)
       : params_(params), query_(query), context_(context) {
     world_ = query.simulator.world(query.assembly, query.prepared, query.scene, dismantle::MotionSpace::rigid);
     start_ = world_->initial_state();
@@ -109,7 +107,8 @@ class Transfer {
   double distance(const Pose& a, const Pose& b) const { return dismantle::screw_travel(a, b, center_, radius_); }
   /// True if all checked states on the screw motion from a to b are free; a itself must be free.
   bool free_between(const Pose& a, const Pose& b) {
-    if (dismantle::angle_between(a.q, b.q) > 0.9 * std::numbers::pi) return false;  // near half a turn the direction is ambiguous
+    if (dismantle::angle_between(a.q, b.q) > 0.9 * std::numbers::pi)
+      return false;  // near half a turn the direction is ambiguous
     const auto states = std::max(1.0, std::ceil(distance(a, b) / (params_.step * radius_)));
     for (double k = 1; k <= states; ++k)
       if (!free(dismantle::screw_interpolate(a, b, k / states))) return false;
@@ -195,7 +194,8 @@ class Transfer {
     for (int k = 0; k < 3; ++k) p[k] = context_.rng.uniform(room_.lo[k], room_.hi[k]);
     Eigen::Quaterniond q = Eigen::Quaterniond::Identity().slerp(context_.rng.uniform(), goal_.q);
     if (context_.rng.below(2) == 0) {
-      const Eigen::Vector4d v(context_.rng.normal(), context_.rng.normal(), context_.rng.normal(), context_.rng.normal());
+      const Eigen::Vector4d v(context_.rng.normal(), context_.rng.normal(), context_.rng.normal(),
+                              context_.rng.normal());
       if (v.norm() > 0) q = Eigen::Quaterniond(v.normalized());
     }
     return {p - q * center_, q};
@@ -217,7 +217,7 @@ class Transfer {
     for (const auto& v : query_.assembly.parts[part.part].mesh->vertices) box.extend(displacement * part.pose * v);
   }
 
-  const AcmeTwoTreesParams& params_;
+  const AcmeTwoTreesParameters& params_;
   const dismantle::TransferQuery& query_;
   dismantle::RunContext& context_;
   std::unique_ptr<dismantle::World> world_;
@@ -231,26 +231,27 @@ class Transfer {
 
 class AcmeTwoTrees final : public dismantle::TransferPlanner {
  public:
-  explicit AcmeTwoTrees(const AcmeTwoTreesParams& params) : params_(params) {}
+  explicit AcmeTwoTrees(const AcmeTwoTreesParameters& params) : params_(params) {}
 
   dismantle::Capabilities needs() const noexcept override { return kNeeds; }
 
   dismantle::PathResult plan(const dismantle::TransferQuery& query, dismantle::RunContext& context) override {
     const auto has = query.simulator.capabilities();
     if (!has.distance || has.max_moving < query.scene.moving.size())
-      return dismantle::PathResult::failure(dismantle::Outcome::unsupported,
-                                            "the simulator does not tell free states of these parts from colliding ones");
+      return dismantle::PathResult::failure(
+          dismantle::Outcome::unsupported,
+          "the simulator does not tell free states of these parts from colliding ones");
     return Transfer(params_, query, context).solve();
   }
 
  private:
-  AcmeTwoTreesParams params_;
+  AcmeTwoTreesParameters params_;
 };
 
 }  // namespace
 
 DISMANTLE_PLUGIN("acme.two_trees", "0.1.0", "MIT", "https://example.org") {
-  r.add<dismantle::TransferPlanner, AcmeTwoTrees, AcmeTwoTreesParams>(
+  r.add<dismantle::TransferPlanner, AcmeTwoTrees, AcmeTwoTreesParameters>(
       "acme.two_trees", "Two random trees that grow towards each other.",
       {.source = "Kuffner and LaValle 2000", .needs = kNeeds});
 }

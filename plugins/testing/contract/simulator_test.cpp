@@ -145,14 +145,14 @@ TEST_P(SimulatorContract, FreeBodiesGoWhereTheyArePushed) {
         const Pose begin = s.bodies[0].pose;
         Trace trace;
         const StepReport report = world->advance(s, push(*world, 100 * Vector3d::Unit(axis)), 0.1, &trace);
-        const Vector3d way = s.bodies[0].pose * world->center(0) - begin * world->center(0);
-        EXPECT_GT(way[axis], 1e-3);
-        EXPECT_LT((way - way[axis] * Vector3d::Unit(axis)).norm(), 1e-6 * way[axis]);
+        const Vector3d displacement = s.bodies[0].pose * world->center(0) - begin * world->center(0);
+        EXPECT_GT(displacement[axis], 1e-3);
+        EXPECT_LT((displacement - displacement[axis] * Vector3d::Unit(axis)).norm(), 1e-6 * displacement[axis]);
         EXPECT_LT(angle_between(s.bodies[0].pose.q, begin.q), 1e-6);
         EXPECT_TRUE(report.finite);
         EXPECT_FALSE(report.stalled);
         EXPECT_GE(report.steps, 1u);
-        EXPECT_NEAR(report.travel, way.norm(), 1e-6);
+        EXPECT_NEAR(report.travel, displacement.norm(), 1e-6);
         ASSERT_FALSE(trace.empty());
         EXPECT_TRUE(bitwise(trace.back()[0], s.bodies[0].pose)) << "the trace ends at the state";
         EXPECT_FALSE(bitwise(trace.front()[0], begin)) << "the trace does not repeat the begin";

@@ -26,10 +26,10 @@ std::deque<Operation> random_operations(const Assembly& assembly, Rng& rng) {
     std::vector<PlacedPart> moved;
     for (auto n = 1 + rng.below(2); n > 0 && next < assembly.parts.size(); --n) moved.push_back({next++, Pose{}});
     Trace removal(2 + rng.below(3));
-    Vector3d way = Vector3d::Zero();
+    Vector3d displacement = Vector3d::Zero();
     for (auto& instant : removal) {
-      for (const PlacedPart& p : moved) instant.push_back(Pose{p.pose.t + way, p.pose.q});
-      way += rng.below(3) == 0 ? Vector3d(Vector3d::Unit(static_cast<int>(rng.below(3)))) : random_vector();
+      for (const PlacedPart& p : moved) instant.push_back(Pose{p.pose.t + displacement, p.pose.q});
+      displacement += rng.below(3) == 0 ? Vector3d(Vector3d::Unit(static_cast<int>(rng.below(3)))) : random_vector();
     }
     all.emplace_back(assembly, moved, present, std::move(removal), random_vector().normalized());
     present.insert(present.end(), moved.begin(), moved.end());

@@ -148,15 +148,15 @@ TEST(FclDepth, Insets) {
                            part_of("l_slot", "housing"), shapes::closed_box({-2, -2, -2}, {2, 2, 2}, 0.004)}) {
     const auto body = body_of(mesh, {});
     for (const double depth : {0.002, 0.02}) {
-      const auto way = inset_displacements(mesh, body->solids, depth);
+      const auto displacement = inset_displacements(mesh, body->solids, depth);
       std::size_t moved = 0;
-      for (std::size_t v = 0; v < way.size(); ++v) {
-        ASSERT_LE(way[v].norm(), depth * (1 + 1e-12));
-        if (way[v].norm() == 0) continue;
+      for (std::size_t v = 0; v < displacement.size(); ++v) {
+        ASSERT_LE(displacement[v].norm(), depth * (1 + 1e-12));
+        if (displacement[v].norm() == 0) continue;
         ++moved;
-        EXPECT_LT(signed_distance(body->solids, mesh.vertices[v] + way[v]), 1e-12);
+        EXPECT_LT(signed_distance(body->solids, mesh.vertices[v] + displacement[v]), 1e-12);
       }
-      EXPECT_GT(moved, way.size() * 9 / 10);
+      EXPECT_GT(moved, displacement.size() * 9 / 10);
     }
   }
 }

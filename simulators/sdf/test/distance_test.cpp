@@ -76,11 +76,11 @@ TEST(SurfaceQuery, WithinTheFlatRadiusDistanceIsLinearAndNoConvexEdgeNear) {
       ++flat;
       FacePlane planes[kMaxPlanes];
       for (int j = 0; j < 20; ++j) {
-        Eigen::Vector3d way(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
-        way *= rng.uniform(0, 0.999) * s.flat_radius / std::max(1e-12, way.norm());
-        const Sample other = query.sample(p + way);
-        ASSERT_NEAR(other.value, s.value + s.normal.dot(way), 1e-6) << "flat radius " << s.flat_radius;
-        ASSERT_EQ(query.planes(p + way, other, kFromEdge, planes), 0);
+        Eigen::Vector3d displacement(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
+        displacement *= rng.uniform(0, 0.999) * s.flat_radius / std::max(1e-12, displacement.norm());
+        const Sample other = query.sample(p + displacement);
+        ASSERT_NEAR(other.value, s.value + s.normal.dot(displacement), 1e-6) << "flat radius " << s.flat_radius;
+        ASSERT_EQ(query.planes(p + displacement, other, kFromEdge, planes), 0);
       }
     }
     if (std::string(c.name) == "box") {

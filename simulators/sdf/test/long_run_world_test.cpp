@@ -24,9 +24,10 @@ class LongRun : public testing::TestWithParam<std::string> {};
 /// A cube is pushed around in a closed room with clearance: it never gets out, nor deeper into a wall than at first.
 TEST_P(LongRun, StuckPartsStayPut) {
   const double play = 0.02;
-  const TestScene scene(GetParam(), {box(Vector3d::Constant(-0.5 + play), Vector3d::Constant(0.5 - play)),
-                                     closed_room(Vector3d::Constant(0.5), 0.2)},
-                        {});
+  const TestScene scene(
+      GetParam(),
+      {box(Vector3d::Constant(-0.5 + play), Vector3d::Constant(0.5 - play)), closed_room(Vector3d::Constant(0.5), 0.2)},
+      {});
   const auto steps = static_cast<std::uint64_t>(testing_support::trials(100'000, 1'000'000));
   for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid}) {
     const auto world = scene.world({0}, space);
@@ -40,7 +41,7 @@ TEST_P(LongRun, StuckPartsStayPut) {
       ASSERT_TRUE(report.finite);
       done += std::max<std::uint64_t>(1, report.steps);
       deepest = std::max(deepest, world->penetration(s));
-      furthest = std::max(furthest, way(*world, s).cwiseAbs().maxCoeff());
+      furthest = std::max(furthest, displacement(*world, s).cwiseAbs().maxCoeff());
     }
     EXPECT_LT(deepest, 0.005);
     EXPECT_LT(furthest, play + 0.005);
@@ -93,14 +94,14 @@ TEST(PenaltyEnergy, OfMotionIsBounded) {
     for (int trial = 0; trial < trials; ++trial) {
       SCOPED_TRACE(std::string(dynamics) + ", trial " + std::to_string(trial));
       const double stiffness = std::pow(10.0, rng.uniform(4, 8)), step = std::pow(10.0, rng.uniform(-4, -2));
-      const TestScene scene("sdf_penalty",
-                            {box(Vector3d::Constant(-0.3), Vector3d::Constant(0.3)),
-                             closed_room(Vector3d::Constant(0.5), 0.3)},
-                            {{"dynamics", std::string(dynamics)},
-                             {"contact_stiffness", stiffness},
-                             {"contact_damping", trial % 2 == 0 ? 0.0 : rng.uniform(0, 100)},
-                             {"time_step", step},
-                             {"max_travel", 0.05}});
+      const TestScene scene(
+          "sdf_penalty",
+          {box(Vector3d::Constant(-0.3), Vector3d::Constant(0.3)), closed_room(Vector3d::Constant(0.5), 0.3)},
+          {{"dynamics", std::string(dynamics)},
+           {"contact_stiffness", stiffness},
+           {"contact_damping", trial % 2 == 0 ? 0.0 : rng.uniform(0, 100)},
+           {"time_step", step},
+           {"max_travel", 0.05}});
       const auto world = scene.world({0}, trial % 3 == 0 ? MotionSpace::translation : MotionSpace::rigid);
       State s = world->initial_state();
       // In the room nothing moves further than max_travel in a step.

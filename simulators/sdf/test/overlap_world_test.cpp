@@ -35,7 +35,7 @@ TEST_P(Overlap, IsAllowedToItsPairAndToNoOther) {
         }
         State s = world->initial_state();
         world->advance(s, push(Vector3d(100, 0, 0)), 0.2, nullptr);
-        EXPECT_LT(way(*world, s).x(), kSlack + 1e-3) << "no deeper than it was";
+        EXPECT_LT(displacement(*world, s).x(), kSlack + 1e-3) << "no deeper than it was";
       }
     }
 }
@@ -50,7 +50,7 @@ TEST_P(Overlap, HoldsNothingBackOnceRelaxed) {
     for (const Vector3d& way_out : {Vector3d(0, 1, 0), Vector3d(0, 0, 1), Vector3d(-1, 0, 0)}) {
       State s = world->initial_state();
       world->advance(s, push(100 * way_out), 0.2, nullptr);
-      EXPECT_NEAR(way(*world, s).dot(way_out), 0.5, 1e-2) << way_out.transpose();
+      EXPECT_NEAR(displacement(*world, s).dot(way_out), 0.5, 1e-2) << way_out.transpose();
     }
   }
 }
@@ -65,9 +65,9 @@ TEST_P(Overlap, IsNoWayThroughAWall) {
   auto world = scene.world({0});
   State s = world->initial_state();
   world->advance(s, push(Vector3d(0, 0, 100)), 0.16, nullptr);
-  ASSERT_NEAR(way(*world, s).z(), 0.4, 1e-2);
+  ASSERT_NEAR(displacement(*world, s).z(), 0.4, 1e-2);
   world->advance(s, push(Vector3d(100, 0, 0)), 0.4, nullptr);
-  EXPECT_LT(way(*world, s).x(), 0.3 + 0.012);
+  EXPECT_LT(displacement(*world, s).x(), 0.3 + 0.012);
 }
 
 INSTANTIATE_TEST_SUITE_P(Simulators, Overlap, testing::Values("sdf_penalty", "sdf_velocity"));

@@ -61,21 +61,21 @@ struct Surroundings {
     walls.assign(more, more + count);
   }
   /// True if it is in front of one of the point's own faces, and of all other reported faces.
-  bool allows(const Vector3d& way) const {
-    const auto clear = [&](const FacePlane& f) { return f.gap + f.normal.dot(way) >= 0; };
+  bool allows(const Vector3d& displacement) const {
+    const auto clear = [&](const FacePlane& f) { return f.gap + f.normal.dot(displacement) >= 0; };
     return std::any_of(fronts.begin(), fronts.end(), clear) && std::all_of(walls.begin(), walls.end(), clear);
   }
 };
 
 /// Moves points near the surface as their surroundings allow. `deepest`: largest allowed depth. Returns the number of
 /// motions.
-int try_ways(const Mesh& mesh, std::uint64_t seed, double deepest) {
+int try_displacements(const Mesh& mesh, std::uint64_t seed, double deepest) {
   const auto solids = split_solids(mesh);
   const SurfaceQuery query(solids[0]);
   Rng rng(seed);
   Aabb around = mesh.box();
   around.inflate(0.02);
-  int ways = 0;
+  int displacements = 0;
   for (int i = 0; i < 4000; ++i) {
     Vector3d p = test::random_point(rng, around);
     Sample sample = query.sample(p);
@@ -88,27 +88,30 @@ int try_ways(const Mesh& mesh, std::uint64_t seed, double deepest) {
     EXPECT_LE(seen.certain, 0.05);
     for (const FacePlane& wall : seen.walls) EXPECT_GE(wall.gap, 0);
     for (int k = 0; k < 8; ++k) {
-      const Vector3d way =
+      const Vector3d displacement =
           Vector3d(rng.normal(), rng.normal(), rng.normal()).normalized() * seen.certain * rng.uniform();
-      if (!seen.allows(way)) continue;
-      ++ways;
-      EXPECT_GE(query.sample(p + way).value, -deepest) << "from " << p.transpose() << " by " << way.transpose();
+      if (!seen.allows(displacement)) continue;
+      ++displacements;
+      EXPECT_GE(query.sample(p + displacement).value, -deepest)
+          << "from " << p.transpose() << " by " << displacement.transpose();
     }
   }
-  return ways;
+  return displacements;
 }
 
 TEST(Surroundings, WhatTheyAllowEntersNothing) {
   Rng rng(61);
-  int ways = 0;
-  for (int i = 0; i < 6; ++i) ways += try_ways(comb(rng, 12, 0.03), 70 + static_cast<std::uint64_t>(i), 1e-6);
-  ways += try_ways(test::inside_out(test::box(Vector3d(-0.2, -0.1, -0.05), Vector3d(0.2, 0.1, 0.05))), 80, 1e-6);
-  EXPECT_GT(ways, 5000);
+  int displacements = 0;
+  for (int i = 0; i < 6; ++i)
+    displacements += try_displacements(comb(rng, 12, 0.03), 70 + static_cast<std::uint64_t>(i), 1e-6);
+  displacements +=
+      try_displacements(test::inside_out(test::box(Vector3d(-0.2, -0.1, -0.05), Vector3d(0.2, 0.1, 0.05))), 80, 1e-6);
+  EXPECT_GT(displacements, 5000);
 }
 
 TEST(Surroundings, OnRoundSurfacesTheErrorIsThatOfTheBend) {
   // Motion 0.05, least radius 0.2: 0.05^2 / (2 * 0.2), and the same again for the facets.
-  EXPECT_GT(try_ways(test::torus(0.8, 0.2, 96, 48), 81, 0.0125), 500);
+  EXPECT_GT(try_displacements(test::torus(0.8, 0.2, 96, 48), 81, 0.0125), 500);
 }
 
 TEST(Surroundings, InACornerTheOtherWallIsTold) {

@@ -71,7 +71,7 @@ inline State at(const World& world, const Pose& pose) {
 inline Pose shift(double x, double y, double z) { return {Vector3d(x, y, z), Eigen::Quaterniond::Identity()}; }
 
 /// Displacement of the body's centre from its assembled position.
-inline Vector3d way(const World& world, const State& state, std::size_t body = 0) {
+inline Vector3d displacement(const World& world, const State& state, std::size_t body = 0) {
   return state.bodies[body].pose * world.center(body) - world.center(body);
 }
 

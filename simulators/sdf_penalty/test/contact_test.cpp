@@ -78,7 +78,7 @@ TEST(Contact, AtRestTheSinkIsForceOverStiffnessAndPoints) {
         // The advance ends when a step no longer moves: up to (drag / dt) / (drag / dt + k n) of the sink may be
         // missing.
         const double left = 6e-3 * sink;
-        EXPECT_NEAR(-way(*world, s).z(), sink, left) << name << " " << stiffness << " " << force;
+        EXPECT_NEAR(-displacement(*world, s).z(), sink, left) << name << " " << stiffness << " " << force;
         EXPECT_NEAR(world->penetration(s), sink, left);
         EXPECT_LT(s.bodies[0].velocity.norm(), 1e-3);
       }
@@ -135,11 +135,11 @@ TEST(Contact, DampingSlowsTheFallAndNotTheSink) {
     deepest[damped] = 0;
     for (int k = 0; k < 20; ++k) {
       world->advance(s, push(Vector3d(0, 0, -100)), 1e-3, nullptr);
-      deepest[damped] = std::max(deepest[damped], -way(*world, s).z());
+      deepest[damped] = std::max(deepest[damped], -displacement(*world, s).z());
     }
     s.bodies[0].velocity.setZero();
     world->advance(s, push(Vector3d(0, 0, -100)), 1.0, nullptr);
-    EXPECT_NEAR(-way(*world, s).z(), 100 / 4e6, 1e-2 * 100 / 4e6);
+    EXPECT_NEAR(-displacement(*world, s).z(), 100 / 4e6, 1e-2 * 100 / 4e6);
   }
   EXPECT_LE(deepest[1], deepest[0]);
 }
@@ -151,8 +151,8 @@ TEST(Contact, SlidingAlongAWallKeepsFullSpeed) {
       auto world = scene.world({0}, space);
       State s = world->initial_state();
       world->advance(s, push(Vector3d(60, 30, -100)), 0.5, nullptr);
-      EXPECT_LT((way(*world, s) - Vector3d(0.75, 0.375, 0)).norm(), 1e-3);
-      EXPECT_LT((way(*world, s) - Vector3d(0.75, 0.375, 0)).head<2>().norm(), 1e-6);
+      EXPECT_LT((displacement(*world, s) - Vector3d(0.75, 0.375, 0)).norm(), 1e-3);
+      EXPECT_LT((displacement(*world, s) - Vector3d(0.75, 0.375, 0)).head<2>().norm(), 1e-6);
       EXPECT_LT(angle_between(s.bodies[0].pose.q, Eigen::Quaterniond::Identity()), 1e-4);
     }
   }
@@ -160,7 +160,7 @@ TEST(Contact, SlidingAlongAWallKeepsFullSpeed) {
   auto world = scene.world({0});
   State s = world->initial_state();
   world->advance(s, push(Vector3d(10, 0, -100)), 0.2, nullptr);
-  EXPECT_NEAR(way(*world, s).x(), 1e-6 * 10 * 200 * 201 / 2, 1e-9) << "as if there were no plate";
+  EXPECT_NEAR(displacement(*world, s).x(), 1e-6 * 10 * 200 * 201 / 2, 1e-9) << "as if there were no plate";
 }
 
 TEST(Contact, AFlushBlockInASlotLeavesAlongIt) {
@@ -174,11 +174,11 @@ TEST(Contact, AFlushBlockInASlotLeavesAlongIt) {
   for (const double sign : {1.0, -1.0}) {
     State s = world->initial_state();
     world->advance(s, push(Vector3d(sign * 100, 0, 0)), 0.4, nullptr);
-    EXPECT_NEAR(way(*world, s).x(), sign, 1e-3);
+    EXPECT_NEAR(displacement(*world, s).x(), sign, 1e-3);
   }
   State s = world->initial_state();
   world->advance(s, push(Vector3d(0, 100, 0)), 0.4, nullptr);
-  EXPECT_LT(way(*world, s).norm(), 1e-3);
+  EXPECT_LT(displacement(*world, s).norm(), 1e-3);
 }
 
 /// A plate in a closed room whose walls are thinner than a field cell; its clearance is 0.1 on every side.
@@ -199,7 +199,7 @@ TEST(Contact, AThinClosedWallIsNeverPassed) {
           const double duration = std::string(name) == "quasi_static" ? 0.8 / force : 0.01;
           for (int k = 0; k < 10; ++k) {
             world->advance(s, push(force * along), duration, nullptr);
-            furthest = std::max(furthest, way(*world, s).dot(along));
+            furthest = std::max(furthest, displacement(*world, s).dot(along));
           }
           EXPECT_LT(furthest, 0.1 + 0.01) << name << ", force " << force << ", direction " << direction;
           EXPECT_GT(furthest, 0.09) << name << ", force " << force << ", direction " << direction;

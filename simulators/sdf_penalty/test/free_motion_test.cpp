@@ -31,7 +31,7 @@ TEST(FreeMotion, UnitMassFollowsBackwardEuler) {
       EXPECT_FALSE(report.stalled);
       const double steps = 50.0 * n;
       EXPECT_LT((s.bodies[0].velocity - steps * h * force).norm(), 1e-10);
-      EXPECT_LT((way(*world, s) - h * h * force * steps * (steps + 1) / 2).norm(), 1e-10);
+      EXPECT_LT((displacement(*world, s) - h * h * force * steps * (steps + 1) / 2).norm(), 1e-10);
     }
   }
 }
@@ -39,15 +39,15 @@ TEST(FreeMotion, UnitMassFollowsBackwardEuler) {
 TEST(FreeMotion, DensityDividesByTheMassOfThePart) {
   const TestScene scene(apart_parts(), dynamics("density", {{"density", 2.0}}));
   const double masses[] = {2.0 * 0.125, 2.0 * 6.0};
-  double ways[2];
+  double displacements[2];
   for (const PartId part : {0u, 1u}) {
     auto world = scene.world({part});
     State s = world->initial_state();
     world->advance(s, push(Vector3d(0, 0, 10)), 0.04, nullptr);
-    ways[part] = way(*world, s).z();
-    EXPECT_NEAR(ways[part], 1e-6 * 10 / masses[part] * 40 * 41 / 2, 1e-10);
+    displacements[part] = displacement(*world, s).z();
+    EXPECT_NEAR(displacements[part], 1e-6 * 10 / masses[part] * 40 * 41 / 2, 1e-10);
   }
-  EXPECT_NEAR(ways[0] / ways[1], 48, 1e-6) << "the heavier part is slower, as in the paper";
+  EXPECT_NEAR(displacements[0] / displacements[1], 48, 1e-6) << "the heavier part is slower, as in the paper";
 }
 
 TEST(FreeMotion, QuasiStaticSpeedIsForceOverDragWhateverTheMass) {
@@ -59,7 +59,7 @@ TEST(FreeMotion, QuasiStaticSpeedIsForceOverDragWhateverTheMass) {
       const Vector3d force = size * Vector3d(0.6, 0, 0.8);
       const double duration = 1.0 / size;
       const StepReport report = world->advance(s, push(force), duration, nullptr);
-      EXPECT_LT((way(*world, s) - duration / 25 * force).norm(), 1e-10);
+      EXPECT_LT((displacement(*world, s) - duration / 25 * force).norm(), 1e-10);
       EXPECT_NEAR(report.travel, duration / 25 * size, 1e-10);
       EXPECT_EQ(s.bodies[0].velocity, Vector3d::Zero());
     }
@@ -71,7 +71,7 @@ TEST(FreeMotion, SpeedIsBoundByTheLargestTravelOfAStep) {
   State s = world->initial_state();
   Trace trace;
   world->advance(s, push(Vector3d(1e5, 0, 0)), 0.05, &trace);
-  EXPECT_NEAR(way(*world, s).x(), 50 * 0.005, 1e-10);
+  EXPECT_NEAR(displacement(*world, s).x(), 50 * 0.005, 1e-10);
   EXPECT_NEAR(s.bodies[0].velocity.x(), 5, 1e-9);
 }
 
@@ -89,7 +89,7 @@ TEST(FreeMotion, WithoutForceQuasiStaticStaysAndInertiaGoesOn) {
   State s = world->initial_state();
   s.bodies[0].velocity = Vector3d(3, 0, -1);
   world->advance(s, push(Vector3d::Zero()), 0.1, nullptr);
-  EXPECT_LT((way(*world, s) - Vector3d(0.3, 0, -0.1)).norm(), 1e-10);
+  EXPECT_LT((displacement(*world, s) - Vector3d(0.3, 0, -0.1)).norm(), 1e-10);
 }
 
 TEST(FreeMotion, TwiceTheDurationIsTwoAdvances) {
@@ -137,7 +137,7 @@ TEST(FreeMotion, TorqueTurnsABodyAboutItsCentre) {
       const double angle = duration * torque / (40 * r * r);
       ASSERT_LT(angle, std::numbers::pi);
       EXPECT_LT((rotation_vector(s.bodies[0].pose.q) - angle * Vector3d::Unit(axis)).norm(), 1e-9);
-      EXPECT_LT(way(*world, s).norm(), 1e-9) << "the centre stays";
+      EXPECT_LT(displacement(*world, s).norm(), 1e-9) << "the centre stays";
       EXPECT_NEAR(s.bodies[0].pose.q.norm(), 1, 1e-12);
     }
 }
@@ -157,7 +157,7 @@ TEST(FreeMotion, SpinUnderInertia) {
     auto world = scene.world({1}, MotionSpace::rigid);
     State s = world->initial_state();
     world->advance(s, push(Vector3d::Zero(), torque * Vector3d::Unit(axis)), steps * h, nullptr);
-    EXPECT_LT(way(*world, s).norm(), 1e-9);
+    EXPECT_LT(displacement(*world, s).norm(), 1e-9);
     const Vector3d w = s.bodies[0].angular_velocity, turn = rotation_vector(s.bodies[0].pose.q);
     EXPECT_NEAR(turn[axis], w[axis] * h * (steps + 1) / 2, 1e-9);
     return w[axis];

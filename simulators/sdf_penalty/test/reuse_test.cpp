@@ -173,11 +173,11 @@ TEST(TwoBodies, PushEachOtherAtHalfTheSpeed) {
     action.wrenches[1].force.setZero();
     State s = world->initial_state();
     world->advance(s, action, 0.04, nullptr);  // 2.5 units / s: the gap is closed
-    EXPECT_NEAR(way(*world, s, 0).x(), 0.1, 1e-3);
-    EXPECT_NEAR(way(*world, s, 1).x(), 0.0, 1e-3);
+    EXPECT_NEAR(displacement(*world, s, 0).x(), 0.1, 1e-3);
+    EXPECT_NEAR(displacement(*world, s, 1).x(), 0.0, 1e-3);
     world->advance(s, action, 0.4, nullptr);
-    EXPECT_NEAR(way(*world, s, 0).x(), 0.6, 2e-3) << "two drags, one force";
-    EXPECT_NEAR(way(*world, s, 1).x(), 0.5, 2e-3);
+    EXPECT_NEAR(displacement(*world, s, 0).x(), 0.6, 2e-3) << "two drags, one force";
+    EXPECT_NEAR(displacement(*world, s, 1).x(), 0.5, 2e-3);
     EXPECT_LT(world->penetration(s), 1e-3);
   }
 }
@@ -193,7 +193,7 @@ TEST(TwoBodies, KeepTheirMomentum) {
     const bool unit = std::string(name) == "unit_mass";
     const double m0 = 1, m1 = unit ? 1 : 1.4 * 1.4;
     EXPECT_NEAR(m0 * s.bodies[0].velocity.x() + m1 * s.bodies[1].velocity.x(), 80 * 0.15, 1e-6) << name;
-    EXPECT_GT(way(*world, s, 1).x(), 0.1) << name;
+    EXPECT_GT(displacement(*world, s, 1).x(), 0.1) << name;
     EXPECT_LT(world->penetration(s), 5e-3) << name;
   }
 }
@@ -206,8 +206,8 @@ TEST(TwoBodies, OppositeForcesBalance) {
   State s = world->initial_state();
   const StepReport report = world->advance(s, action, 1.0, nullptr);
   EXPECT_TRUE(report.stalled);
-  EXPECT_NEAR(way(*world, s, 0).x(), 0.05, 1e-3) << "they meet in the middle";
-  EXPECT_NEAR(way(*world, s, 1).x(), -0.05, 1e-3);
+  EXPECT_NEAR(displacement(*world, s, 0).x(), 0.05, 1e-3) << "they meet in the middle";
+  EXPECT_NEAR(displacement(*world, s, 1).x(), -0.05, 1e-3);
   EXPECT_NEAR(world->penetration(s), 100 / 4e6, 1e-6) << "four corners of the smaller one";
   std::vector<Contact> contacts;
   world->contacts(s, contacts);
@@ -247,7 +247,7 @@ TEST(TwoBodies, AThinWallBetweenThemHolds) {
   State s = world->initial_state();
   for (int k = 0; k < 20; ++k) {
     world->advance(s, action, 0.02, nullptr);
-    EXPECT_LT(way(*world, s, 0).x() - way(*world, s, 1).x(), 0.1 + 0.005);
+    EXPECT_LT(displacement(*world, s, 0).x() - displacement(*world, s, 1).x(), 0.1 + 0.005);
   }
 }
 

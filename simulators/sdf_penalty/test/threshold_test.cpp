@@ -14,7 +14,7 @@ TEST(Threshold, AThresholdWiderThanAStepStillResists) {
   EXPECT_NEAR(world->penetration(at(*world, shift(0, 0, -0.03))), 0.02, 1e-12);
   State s = world->initial_state();
   world->advance(s, push(Vector3d(0, 0, -100)), 0.2, nullptr);
-  EXPECT_NEAR(way(*world, s).z(), -0.01, 1e-3);
+  EXPECT_NEAR(displacement(*world, s).z(), -0.01, 1e-3);
 }
 
 TEST(Threshold, TheWidestThresholdIsGrantedInFull) {
@@ -25,7 +25,7 @@ TEST(Threshold, TheWidestThresholdIsGrantedInFull) {
   EXPECT_NEAR(world->penetration(at(*world, shift(0, 0, -0.12))), 0.02, 1e-12);
   State s = world->initial_state();
   world->advance(s, push(Vector3d(0, 0, -100)), 0.2, nullptr);
-  EXPECT_NEAR(way(*world, s).z(), -0.1, 1e-3);
+  EXPECT_NEAR(displacement(*world, s).z(), -0.1, 1e-3);
 }
 
 }  // namespace

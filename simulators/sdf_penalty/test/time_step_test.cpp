@@ -34,7 +34,7 @@ TEST(TimeStep, AccelerationIsTheSameForEveryMassAndInertia) {
       State s = world->initial_state();
       world->advance(s, push(force, torque), 0.05, nullptr);
       const double sum = 1e-6 * 50 * 51 / 2;
-      EXPECT_LT((way(*world, s) - sum * force).norm(), 1e-9);
+      EXPECT_LT((displacement(*world, s) - sum * force).norm(), 1e-9);
       EXPECT_NEAR(angle_between(s.bodies[0].pose.q, Eigen::Quaterniond::Identity()), sum * torque.norm(), 1e-6);
       EXPECT_LT((s.bodies[0].angular_velocity - 0.05 * torque).norm(), 1e-6);
     }
@@ -75,10 +75,11 @@ TEST(TimeStep, SlidingLeadsAsFarAsTheFixedStepToWithinASixth) {
       const StepReport reference = a->advance(x, push(force), 0.1, nullptr);
       const StepReport few = b->advance(y, push(force), 0.1, nullptr);
       const double expected = 60 * 1e-6 * 100 * 101 / 2;
-      EXPECT_NEAR(way(*a, x).head<2>().norm(), expected, 0.01 * expected);
-      EXPECT_NEAR(way(*b, y).head<2>().norm(), way(*a, x).head<2>().norm(), expected / 6);
-      EXPECT_LT((way(*a, x) - way(*b, y)).cross(Vector3d::UnitZ()).norm(), expected / 6) << "the same direction";
-      EXPECT_GT(way(*b, y).z(), -2e-3);
+      EXPECT_NEAR(displacement(*a, x).head<2>().norm(), expected, 0.01 * expected);
+      EXPECT_NEAR(displacement(*b, y).head<2>().norm(), displacement(*a, x).head<2>().norm(), expected / 6);
+      EXPECT_LT((displacement(*a, x) - displacement(*b, y)).cross(Vector3d::UnitZ()).norm(), expected / 6)
+          << "the same direction";
+      EXPECT_GT(displacement(*b, y).z(), -2e-3);
       EXPECT_LT(few.steps, reference.steps / 4);
     }
   }

@@ -39,14 +39,14 @@ TEST(Motion, AFreeBodyMovesAtForceOverDragAndTurnsAboutItsCentre) {
     const Vector3d force = 60 * random_vector(rng);
     const double duration = rng.uniform(0.01, 0.2);
     const StepReport report = world->advance(s, push(force), duration, nullptr);
-    EXPECT_LT((way(*world, s) - duration / kDrag * force).norm(), 1e-10);
+    EXPECT_LT((displacement(*world, s) - duration / kDrag * force).norm(), 1e-10);
     EXPECT_FALSE(report.stalled);
     s = world->initial_state();
     const double r = world->radius(0);
     const Vector3d torque = 60 * r * random_vector(rng);
     world->advance(s, push(Vector3d::Zero(), torque), duration, nullptr);
     EXPECT_LT((rotation_vector(s.bodies[0].pose.q) - duration / (kDrag * r * r) * torque).norm(), 1e-9);
-    EXPECT_LT(way(*world, s).norm(), 1e-9);
+    EXPECT_LT(displacement(*world, s).norm(), 1e-9);
   }
 }
 
@@ -63,7 +63,7 @@ TEST(Motion, OnAnInclineOnlyThePartAlongItIsLeft) {
       const Vector3d force = 100 * (along.normalized() - rng.uniform(1.1, 3) * Vector3d::UnitZ());
       const StepReport report = world->advance(s, push(q * force), 0.3, nullptr);
       const Vector3d expected = q * (0.3 / kDrag * Vector3d(force.x(), force.y(), 0));
-      EXPECT_LT((way(*world, s) - expected).norm(), 1e-6);
+      EXPECT_LT((displacement(*world, s) - expected).norm(), 1e-6);
       EXPECT_LT(angle_between(s.bodies[0].pose.q, Eigen::Quaterniond::Identity()), 1e-6);
       EXPECT_FALSE(report.stalled);
       EXPECT_LT(world->penetration(s), 1e-6);
@@ -76,7 +76,7 @@ TEST(Motion, AcrossAGapItGoesUntilItTouchesAndSlidesOn) {
   auto world = scene.world({0});
   State s = world->initial_state();
   world->advance(s, push(Vector3d(80, 0, -40)), 0.2, nullptr);
-  EXPECT_LT((way(*world, s) - Vector3d(0.4, 0, -0.07)).norm(), 1e-9);
+  EXPECT_LT((displacement(*world, s) - Vector3d(0.4, 0, -0.07)).norm(), 1e-9);
 }
 
 TEST(Motion, WhatRestsDoesNotDrift) {
@@ -85,12 +85,12 @@ TEST(Motion, WhatRestsDoesNotDrift) {
     auto world = scene.world({0}, space);
     State s = world->initial_state();
     for (int k = 0; k < 500; ++k) EXPECT_TRUE(world->advance(s, push(Vector3d(0, 0, -100)), 0.1, nullptr).stalled);
-    EXPECT_LT(way(*world, s).norm(), 1e-9);
+    EXPECT_LT(displacement(*world, s).norm(), 1e-9);
     EXPECT_LT(angle_between(s.bodies[0].pose.q, Eigen::Quaterniond::Identity()), 1e-9);
     // Nor while it slides back and forth.
     for (int k = 0; k < 200; ++k)
       world->advance(s, push(Vector3d(k % 4 < 2 ? 60 : -60, k % 2 == 0 ? 30 : -30, -150)), 0.1, nullptr);
-    EXPECT_LT(std::abs(way(*world, s).z()), 1e-6);
+    EXPECT_LT(std::abs(displacement(*world, s).z()), 1e-6);
     EXPECT_LT(world->penetration(s), 1e-6);
   }
 }
@@ -107,14 +107,14 @@ TEST(Motion, InAGrooveOnlyTheGrooveIsLeftAndInACornerNothing) {
       State s = world->initial_state();
       const double along = rng.uniform(-60, 60);
       world->advance(s, push(q * Vector3d(-90, -120, along)), 0.2, nullptr);
-      EXPECT_LT((way(*world, s) - q * Vector3d(0, 0, 0.2 / kDrag * along)).norm(), 1e-6);
+      EXPECT_LT((displacement(*world, s) - q * Vector3d(0, 0, 0.2 / kDrag * along)).norm(), 1e-6);
     }
     meshes.push_back(box(Vector3d(-1, -1, -1), Vector3d(6, 6, 0)));
     const VelocityScene corner(turned(meshes, q));
     auto world = corner.world({0});
     State s = world->initial_state();
     EXPECT_TRUE(world->advance(s, push(q * Vector3d(-90, -120, -20)), 0.2, nullptr).stalled);
-    EXPECT_LT(way(*world, s).norm(), 1e-9);
+    EXPECT_LT(displacement(*world, s).norm(), 1e-9);
     EXPECT_FALSE(world->advance(s, push(q * Vector3d(5, 10, 90)), 0.2, nullptr).stalled);
   }
 }
@@ -131,12 +131,12 @@ TEST(Motion, AFlushBlockLeavesItsSlotBothWays) {
       auto world = scene.world({0});
       State s = world->initial_state();
       world->advance(s, push(q * Vector3d(sign * 100, 0, 0)), 0.4, nullptr);
-      EXPECT_LT((way(*world, s) - q * Vector3d(sign, 0, 0)).norm(), 1e-6);
+      EXPECT_LT((displacement(*world, s) - q * Vector3d(sign, 0, 0)).norm(), 1e-6);
     }
     auto world = scene.world({0});
     State s = world->initial_state();
     EXPECT_TRUE(world->advance(s, push(q * Vector3d(0, 100, 0)), 0.4, nullptr).stalled);
-    EXPECT_LT(way(*world, s).norm(), 1e-6);
+    EXPECT_LT(displacement(*world, s).norm(), 1e-6);
   }
 }
 
@@ -151,15 +151,15 @@ TEST(Motion, SeveralBodiesShareAPush) {
     action.wrenches[1].force.setZero();
     State s = world->initial_state();
     world->advance(s, action, 0.04, nullptr);
-    EXPECT_NEAR(way(*world, s, 0).x(), 0.1, 1e-6) << "the gap is closed";
-    EXPECT_NEAR(way(*world, s, 1).x(), 0.0, 1e-6);
+    EXPECT_NEAR(displacement(*world, s, 0).x(), 0.1, 1e-6) << "the gap is closed";
+    EXPECT_NEAR(displacement(*world, s, 1).x(), 0.0, 1e-6);
     world->advance(s, action, 0.4, nullptr);
-    EXPECT_NEAR(way(*world, s, 0).x(), 0.6, 1e-4) << "two drags, one force";
-    EXPECT_NEAR(way(*world, s, 1).x(), 0.5, 1e-4);
+    EXPECT_NEAR(displacement(*world, s, 0).x(), 0.6, 1e-4) << "two drags, one force";
+    EXPECT_NEAR(displacement(*world, s, 1).x(), 0.5, 1e-4);
     action.wrenches[1].force = Vector3d(-100, 0, 0);
-    const Vector3d before = way(*world, s, 0);
+    const Vector3d before = displacement(*world, s, 0);
     EXPECT_TRUE(world->advance(s, action, 0.4, nullptr).stalled) << "opposite forces balance";
-    EXPECT_LT((way(*world, s, 0) - before).norm(), 1e-4);
+    EXPECT_LT((displacement(*world, s, 0) - before).norm(), 1e-4);
   }
 }
 
@@ -180,7 +180,7 @@ TEST(Motion, ATurnedSceneGivesTheTurnedMotion) {
         a->advance(s, push(force, torque), 0.1, nullptr);
         b->advance(t, push(q * force, q * torque), 0.1, nullptr);
         // Rounding may decide whether a step is corrected in place: tolerate the depth that is not corrected.
-        EXPECT_LT((q * way(*a, s) - way(*b, t)).norm(), 1e-3) << i << " " << k;
+        EXPECT_LT((q * displacement(*a, s) - displacement(*b, t)).norm(), 1e-3) << i << " " << k;
         EXPECT_LT(angle_between(q * s.bodies[0].pose.q * q.conjugate(), t.bodies[0].pose.q), 1e-3) << i << " " << k;
       }
     }

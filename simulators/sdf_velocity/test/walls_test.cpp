@@ -24,7 +24,8 @@ TEST(Walls, AThinClosedRoomStaysClosed) {
           State s = world->initial_state();
           const Vector3d along = (direction % 2 == 0 ? 1.0 : -1.0) * Vector3d::Unit(direction / 2);
           for (int k = 0; k < 10; ++k) world->advance(s, push(force * along), 0.8 * 100 / force, nullptr);
-          EXPECT_NEAR(way(*world, s).dot(along), 0.1, 1e-3) << "force " << force << ", direction " << direction;
+          EXPECT_NEAR(displacement(*world, s).dot(along), 0.1, 1e-3)
+              << "force " << force << ", direction " << direction;
           EXPECT_FALSE(world->separated(s));
         }
   }
@@ -66,8 +67,8 @@ TEST(Walls, AFinInTheWayOfASlidingBodyHolds) {
       auto world = scene.world({0}, i % 2 == 0 ? MotionSpace::translation : MotionSpace::rigid);
       State s = world->initial_state();
       world->advance(s, push(Vector3d(100, rng.uniform(-30, 30), -200)), 0.4, nullptr);
-      EXPECT_NEAR(way(*world, s).x(), 0.5, 2e-3);
-      EXPECT_NEAR(way(*world, s).z(), 0, 2e-3);
+      EXPECT_NEAR(displacement(*world, s).x(), 0.5, 2e-3);
+      EXPECT_NEAR(displacement(*world, s).z(), 0, 2e-3);
     }
   }
 }
@@ -82,7 +83,7 @@ TEST(Walls, AThinWallBetweenTwoMovingBodiesHolds) {
   State s = world->initial_state();
   for (int k = 0; k < 20; ++k) {
     world->advance(s, action, 0.02, nullptr);
-    EXPECT_LT(way(*world, s, 0).x() - way(*world, s, 1).x(), 0.1 + 1e-3);
+    EXPECT_LT(displacement(*world, s, 0).x() - displacement(*world, s, 1).x(), 0.1 + 1e-3);
   }
 }
 
@@ -93,7 +94,7 @@ TEST(Walls, WhatStartsInASurfaceIsLiftedOutOfIt) {
   for (const double depth : {1e-4, 0.003, 0.02}) {
     State s = at(*world, shift(0, 0, -depth));
     for (int k = 0; k < 5; ++k) world->advance(s, push(Vector3d(100, 0, -20)), 0.02, nullptr);
-    EXPECT_NEAR(way(*world, s).z(), 0, 1e-3) << depth;
+    EXPECT_NEAR(displacement(*world, s).z(), 0, 1e-3) << depth;
   }
 }
 

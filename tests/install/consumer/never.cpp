@@ -3,16 +3,16 @@
 
 namespace {
 
-struct NeverParams {
+struct NeverParameters {
   double patience = 1;
-  static void describe(dismantle::Schema<NeverParams>& s) {
-    s.add("patience", &NeverParams::patience, {.unit = "s", .min = 0, .doc = "Not used up."});
+  static void describe(dismantle::Schema<NeverParameters>& s) {
+    s.add("patience", &NeverParameters::patience, {.unit = "s", .min = 0, .doc = "Not used up."});
   }
 };
 
 class Never : public dismantle::FunctionPathPlanner {
  public:
-  explicit Never(const NeverParams&) {}
+  explicit Never(const NeverParameters&) {}
   dismantle::PathPlannerTraits traits() const noexcept override { return {}; }
   dismantle::PathResult plan(const dismantle::PathQuery&, dismantle::RunContext&) override {
     return dismantle::PathResult::failure(dismantle::Outcome::exhausted);
@@ -22,5 +22,5 @@ class Never : public dismantle::FunctionPathPlanner {
 }  // namespace
 
 DISMANTLE_PLUGIN("consumer", "1.0.0", "MIT", "https://example.org") {
-  r.add<dismantle::PathPlanner, Never, NeverParams>("consumer.never", "Gives up at once.", {.source = "none"});
+  r.add<dismantle::PathPlanner, Never, NeverParameters>("consumer.never", "Gives up at once.", {.source = "none"});
 }

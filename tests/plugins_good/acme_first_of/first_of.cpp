@@ -16,19 +16,19 @@ struct Member {
   }
 };
 
-struct FirstOfParams {
+struct FirstOfParameters {
   std::vector<Member> of;                                    // no default: the key has to be given
   dismantle::PluginRef<dismantle::PathPlanner> last{"bfs"};  // one planner, with a default
 
-  static void describe(dismantle::Schema<FirstOfParams>& s) {
-    s.add("of", &FirstOfParams::of, {.doc = "The planners, in the order in which they are asked."});
-    s.add("last", &FirstOfParams::last, {.doc = "Asked when all others have failed."});
+  static void describe(dismantle::Schema<FirstOfParameters>& s) {
+    s.add("of", &FirstOfParameters::of, {.doc = "The planners, in the order in which they are asked."});
+    s.add("last", &FirstOfParameters::last, {.doc = "Asked when all others have failed."});
   }
 };
 
 class FirstOf final : public dismantle::FunctionPathPlanner {
  public:
-  explicit FirstOf(const FirstOfParams& params) {
+  explicit FirstOf(const FirstOfParameters& params) {
     for (const Member& member : params.of) add(member.plugin, static_cast<std::uint64_t>(member.steps));
     add(params.last, 0);
   }
@@ -76,6 +76,6 @@ class FirstOf final : public dismantle::FunctionPathPlanner {
 }  // namespace
 
 DISMANTLE_PLUGIN("acme.first_of", "1.0.0", "MIT", "https://example.org/first_of") {
-  r.add<dismantle::PathPlanner, FirstOf, FirstOfParams>("acme.first_of", "Several planners, one after the other.",
-                                                        {.source = "own"});
+  r.add<dismantle::PathPlanner, FirstOf, FirstOfParameters>("acme.first_of", "Several planners, one after the other.",
+                                                            {.source = "own"});
 }

@@ -5,17 +5,17 @@
 
 namespace {
 
-struct StraightParams {
+struct StraightParameters {
   double force = 100;
   double push_time = 0.1;
   std::int64_t max_pushes = 200;
 
-  static void describe(dismantle::Schema<StraightParams>& s) {
-    s.add("force", &StraightParams::force,
+  static void describe(dismantle::Schema<StraightParameters>& s) {
+    s.add("force", &StraightParameters::force,
           {.unit = "mass * assembly units / s^2", .min = 0, .min_open = true, .doc = "Force of a push."});
-    s.add("push_time", &StraightParams::push_time,
+    s.add("push_time", &StraightParameters::push_time,
           {.unit = "s", .min = 0, .min_open = true, .doc = "Length of a push."});
-    s.add("max_pushes", &StraightParams::max_pushes, {.unit = "1", .min = 1, .doc = "Pushes per direction."});
+    s.add("max_pushes", &StraightParameters::max_pushes, {.unit = "1", .min = 1, .doc = "Pushes per direction."});
   }
 };
 
@@ -23,7 +23,7 @@ constexpr dismantle::Capabilities kNeeds{.dynamics = true};
 
 class Straight final : public dismantle::FunctionPathPlanner {
  public:
-  explicit Straight(const StraightParams& params) : params_(params) {}
+  explicit Straight(const StraightParameters& params) : params_(params) {}
 
   dismantle::PathPlannerTraits traits() const noexcept override { return {.needs = kNeeds}; }
 
@@ -79,12 +79,13 @@ class Straight final : public dismantle::FunctionPathPlanner {
     return all;
   }
 
-  StraightParams params_;
+  StraightParameters params_;
 };
 
 }  // namespace
 
 DISMANTLE_PLUGIN("acme.straight", "1.0.0", "MIT", "https://example.org/straight") {
-  r.add<dismantle::PathPlanner, Straight, StraightParams>("acme.straight", "Straight pushes along the six axes.",
-                                                          {.source = "the simplest thing that works", .needs = kNeeds});
+  r.add<dismantle::PathPlanner, Straight, StraightParameters>(
+      "acme.straight", "Straight pushes along the six axes.",
+      {.source = "the simplest thing that works", .needs = kNeeds});
 }

@@ -6,13 +6,13 @@
 
 namespace {
 
-struct VetoParams {
+struct VetoParameters {
   dismantle::PluginRef<dismantle::SequencePlanner> planner{"progressive"};
   double drop = 0;
 
-  static void describe(dismantle::Schema<VetoParams>& s) {
-    s.add("planner", &VetoParams::planner, {.doc = "The planner that looks for the sequence."});
-    s.add("drop", &VetoParams::drop,
+  static void describe(dismantle::Schema<VetoParameters>& s) {
+    s.add("planner", &VetoParameters::planner, {.doc = "The planner that looks for the sequence."});
+    s.add("drop", &VetoParameters::drop,
           {.unit = "assembly units", .min = 0, .doc = "A part may end this far below where it began."});
   }
 };
@@ -67,7 +67,7 @@ class VetoOracle final : public dismantle::PathOracle {
 
 class Veto final : public dismantle::SequencePlanner {
  public:
-  explicit Veto(const VetoParams& params) : planner_(params.planner.create()), drop_(params.drop) {}
+  explicit Veto(const VetoParameters& params) : planner_(params.planner.create()), drop_(params.drop) {}
 
   dismantle::SequencePlannerTraits traits() const noexcept override { return planner_->traits(); }
 
@@ -87,6 +87,6 @@ class Veto final : public dismantle::SequencePlanner {
 }  // namespace
 
 DISMANTLE_PLUGIN("acme.veto", "1.0.0", "MIT", "https://example.org/veto") {
-  r.add<dismantle::SequencePlanner, Veto, VetoParams>("acme.veto", "A sequence without removals downwards.",
-                                                      {.source = "own"});
+  r.add<dismantle::SequencePlanner, Veto, VetoParameters>("acme.veto", "A sequence without removals downwards.",
+                                                          {.source = "own"});
 }

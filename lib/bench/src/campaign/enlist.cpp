@@ -100,7 +100,7 @@ std::string hash_of_input(const SuiteAssembly& assembly) {
 }
 
 /// The name of a generated assembly contains a hash of its inputs, so that it is never mistaken for another.
-std::string input_name(const SuiteAssembly& assembly, const std::string& input_hash, const ImportParams& importers,
+std::string input_name(const SuiteAssembly& assembly, const std::string& input_hash, const ImportParameters& importers,
                        bool rotate, std::int64_t seed) {
   std::string recipe = assembly.path.string() + "|" + input_hash;
   for (const auto& [importer, values] : importers)

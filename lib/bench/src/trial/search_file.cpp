@@ -36,14 +36,14 @@ std::size_t SearchFile::begin(const PathQuery& query) {
 }
 
 void SearchFile::node(std::size_t search, std::ptrdiff_t parent, const std::vector<Pose>& poses, double effort,
-                      double way) {
+                      double distance) {
   const std::lock_guard lock(mutex_);
   Search& s = searches_.at(search);
   const std::size_t number = s.nodes++;
-  if (way > kBetter * s.best) {
-    s.best = way;
+  if (distance > kBetter * s.best) {
+    s.best = distance;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-    file_ << fmt::format("best {} {:.6f} {:.9g} {:.6g} {}\n", search, seconds, effort, way / s.size, s.part)
+    file_ << fmt::format("best {} {:.6f} {:.9g} {:.6g} {}\n", search, seconds, effort, distance / s.size, s.part)
           << std::flush;
   }
   if (nodes_left_ == 0 || poses.empty()) return;

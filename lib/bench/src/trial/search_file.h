@@ -19,7 +19,7 @@ class SearchFile final : public SearchListener {
   SearchFile(const std::filesystem::path& file, std::size_t most_nodes);
   std::size_t begin(const PathQuery& query) override;
   void node(std::size_t search, std::ptrdiff_t parent, const std::vector<Pose>& poses, double effort,
-            double way) override;
+            double distance) override;
 
  private:
   struct Search {

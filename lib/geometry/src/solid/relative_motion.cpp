@@ -94,14 +94,15 @@ double RelativeMotion::chord_deviation(std::size_t i, std::size_t j) const {
   const Placement &from = at_instant_[i], &to = at_instant_[j];
   Vec3 middle = Vec3::Zero();
   for (const auto& c : corners_) middle += c / 8;
-  const Vec3 start = from * middle, way = to * middle - start;
-  const double way2 = way.squaredNorm();
+  const Vec3 start = from * middle, displacement = to * middle - start;
+  const double displacement2 = displacement.squaredNorm();
   double worst = 0;
   for (std::size_t k = i; k < j; ++k) worst = std::max(worst, bend_[k] / 8);
   double off = 0;
   for (std::size_t k = i + 1; k < j; ++k) {
-    const double w = way2 > 1e-20 ? std::clamp((at_instant_[k] * middle - start).dot(way) / way2, 0.0, 1.0)
-                                  : static_cast<double>(k - i) / static_cast<double>(j - i);
+    const double w = displacement2 > 1e-20
+                         ? std::clamp((at_instant_[k] * middle - start).dot(displacement) / displacement2, 0.0, 1.0)
+                         : static_cast<double>(k - i) / static_cast<double>(j - i);
     // The offset is affine in the point, so its maximum is at a corner of the box.
     for (const auto& c : corners_)
       off = std::max(off, (at_instant_[k] * c - (1 - w) * (from * c) - w * (to * c)).norm());
@@ -131,12 +132,13 @@ RelativeMotion::Bend RelativeMotion::bend(double s0, double s1) const {
   const Placement &from = at_instant_[i], &to = at_instant_[j];
   Vec3 middle = Vec3::Zero();
   for (const auto& c : corners_) middle += c / 8;
-  const Vec3 start = from * middle, way = to * middle - start;
-  const double way2 = way.squaredNorm();
+  const Vec3 start = from * middle, displacement = to * middle - start;
+  const double displacement2 = displacement.squaredNorm();
   for (std::size_t k = i; k < j; ++k) bend.along_ = std::max(bend.along_, bend_[k] / 8);
   for (std::size_t k = i + 1; k < j; ++k) {
-    const double w = way2 > 1e-20 ? std::clamp((at_instant_[k] * middle - start).dot(way) / way2, 0.0, 1.0)
-                                  : static_cast<double>(k - i) / static_cast<double>(j - i);
+    const double w = displacement2 > 1e-20
+                         ? std::clamp((at_instant_[k] * middle - start).dot(displacement) / displacement2, 0.0, 1.0)
+                         : static_cast<double>(k - i) / static_cast<double>(j - i);
     Bend::Offset o;
     o.m = at_instant_[k].r - (1 - w) * from.r - w * to.r;
     o.t = at_instant_[k].t - (1 - w) * from.t - w * to.t;

@@ -30,9 +30,9 @@ std::string reached_text(const Plan& plan, const TextUnit& unit, const PlanStep&
   auto move = std::ranges::find(step.moves, step.forced->part, &PlanMove::part);
   if (move == step.moves.end()) move = step.moves.begin();
   const double size = plan.assembly.box.empty() ? 1 : plan.assembly.box.size().maxCoeff();
-  const std::vector<Pose> way(move->poses.begin(),
-                              move->poses.begin() + static_cast<std::ptrdiff_t>(step.transfer) + 1);
-  const MotionSummary motion = summarize_motion(way, plan.assembly.center, 1e-3 * size);
+  const std::vector<Pose> path(move->poses.begin(),
+                               move->poses.begin() + static_cast<std::ptrdiff_t>(step.transfer) + 1);
+  const MotionSummary motion = summarize_motion(path, plan.assembly.center, 1e-3 * size);
   if (motion.length < 2e-3 * size && motion.turn < 1e-2) return move->part + " cuts in from the beginning";
   return fmt::format("{} comes {} without cutting in", move->part,
                      motion_words(in_unit(motion, unit.factor), unit.name, input_frame(plan).up));

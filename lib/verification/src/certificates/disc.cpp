@@ -184,8 +184,8 @@ class Walls {
     while (!fans.empty()) {
       const Fan fan = fans.back();
       fans.pop_back();
-      const Vec3 way = std::cos(fan.angle) * e + std::sin(fan.angle) * f;
-      const Lines lines{center, way, normal.cross(way), radius, fan.half};
+      const Vec3 along = std::cos(fan.angle) * e + std::sin(fan.angle) * f;
+      const Lines lines{center, along, normal.cross(along), radius, fan.half};
       // The triangle that blocks the last fan comes first.
       const auto blocking =
           std::find_if(around.begin(), around.end(), [&](std::uint32_t t) { return blocks(lines, t, true); });
@@ -204,7 +204,7 @@ class Walls {
 
   /// Diameters whose centre differs from `from` by at most `radius`, and whose angle differs by at most `spread`.
   struct Lines {
-    Vec3 from, way, across;
+    Vec3 from, along, across;
     double radius, spread;
   };
 
@@ -212,10 +212,10 @@ class Walls {
   /// the distance from a triangle is convex, and so is the term for the angle. Golden section search finds the minimum.
   bool blocks(const Lines& lines, std::uint32_t triangle, bool spread) {
     const double angle = spread ? lines.spread : 0, enough = half_ - lines.radius;
-    if (walls_.far_from_line(triangle, lines.from, lines.way, lines.across, disc_.radius, enough)) return false;
+    if (walls_.far_from_line(triangle, lines.from, lines.along, lines.across, disc_.radius, enough)) return false;
     const auto at = [&](double t) {
       ++steps_;
-      return distance(lines.from + t * lines.way, walls_.corners(triangle)) + angle * std::abs(t);
+      return distance(lines.from + t * lines.along, walls_.corners(triangle)) + angle * std::abs(t);
     };
     constexpr double kGolden = 0.6180339887498949;
     double lo = -disc_.radius, hi = disc_.radius, a = hi - kGolden * (hi - lo), b = lo + kGolden * (hi - lo);

@@ -26,14 +26,14 @@ class NearestTriangles {
   /// Triangles of `list` that may be within `reach` of the point; and of the plane through it with a unit normal.
   List around(const Vec3& p, double reach, const List& list) const;
   List around_plane(const Vec3& p, const Vec3& normal, double reach, const List& list) const;
-  /// True if the triangle is certainly further than `reach` from the segment p +- half * way. `way` and `across` are
+  /// True if the triangle is certainly further than `reach` from the segment p +- half * line. `line` and `across` are
   /// orthogonal unit vectors.
-  bool far_from_line(std::uint32_t t, const Vec3& p, const Vec3& way, const Vec3& across, double half,
+  bool far_from_line(std::uint32_t t, const Vec3& p, const Vec3& line, const Vec3& across, double half,
                      double reach) const {
     const Corners& c = items_[t].corners;
     const Vec3 side(across.dot(c[0] - p), across.dot(c[1] - p), across.dot(c[2] - p));
     if (side.minCoeff() > reach || side.maxCoeff() < -reach) return true;
-    const Vec3 along(way.dot(c[0] - p), way.dot(c[1] - p), way.dot(c[2] - p));
+    const Vec3 along(line.dot(c[0] - p), line.dot(c[1] - p), line.dot(c[2] - p));
     return along.minCoeff() > half + reach || along.maxCoeff() < -half - reach;
   }
   const Corners& corners(std::uint32_t t) const { return items_[t].corners; }

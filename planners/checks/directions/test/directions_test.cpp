@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-StepVerdict verdict(const Vector3d& before, const Vector3d& now, const DirectionsParams& params = {}) {
+StepVerdict verdict(const Vector3d& before, const Vector3d& now, const DirectionsParameters& params = {}) {
   const Assembly assembly;
   const StepQuestion previous{assembly, {}, {}, before};
   return Directions(params).judge({assembly, {}, {}, now, nullptr, Vector3d::UnitZ(), &previous}, RunContext{});

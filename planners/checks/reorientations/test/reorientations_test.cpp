@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-StepVerdict verdict(const Vector3d& before, const Vector3d& now, const ReorientationsParams& params = {}) {
+StepVerdict verdict(const Vector3d& before, const Vector3d& now, const ReorientationsParameters& params = {}) {
   const Assembly assembly;
   const StepQuestion previous{assembly, {}, {}, Vector3d::UnitX(), nullptr, before};
   return Reorientations(params).judge({assembly, {}, {}, Vector3d::UnitY(), nullptr, now, &previous}, RunContext{});

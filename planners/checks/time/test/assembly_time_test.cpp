@@ -21,7 +21,7 @@ struct Step {
     for (PartId id = 1; id < assembly.parts.size(); ++id) present.push_back({id, Pose{}});
   }
   StepVerdict verdict(const Vector3d& direction = -Vector3d::UnitZ(), const StepQuestion* previous = nullptr,
-                      const TimeParams& params = {}) const {
+                      const TimeParameters& params = {}) const {
     StepQuestion question{assembly, moving, present, direction};
     question.previous = previous;
     return Time(params).judge(question, RunContext{});

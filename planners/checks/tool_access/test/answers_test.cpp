@@ -138,7 +138,7 @@ TEST(KnownAnswers, AnotherToolOfTheCatalogueReaches) {
   const PartId screw_id = scene.add("screw", screw(), {0, 0, -10}), plate_id = scene.add("plate", plate());
   const PartId deep = scene.add("deep", wall(4, 80));
   everywhere(scene, [&](const Assembly& assembly, const Vector3d& down) {
-    const ToolAccess one(ToolAccessParams{.only = "hex_key_2.5"}), other(ToolAccessParams{.only = "hex_key_3"});
+    const ToolAccess one(ToolAccessParameters{.only = "hex_key_2.5"}), other(ToolAccessParameters{.only = "hex_key_3"});
     for (const ToolAccess* check : {&one, &other}) {
       const StepVerdict v = judge(*check, assembly, {screw_id}, {plate_id, deep}, down);
       EXPECT_EQ(v.cost, 1);

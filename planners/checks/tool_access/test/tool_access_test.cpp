@@ -26,7 +26,7 @@ TEST(ToolAccess, AScrewInAWell) {
     const Pose pose = shapes::random_pose(rng, 30);
     const Assembly assembly = scene.assembly(pose, rng.uniform(0.01, 2), unit);
     const Vector3d down = pose.q * -Vector3d::UnitZ();
-    const ToolAccess check(ToolAccessParams{.only = "hex_key_2.5, hex_key_long_2.5"});
+    const ToolAccess check(ToolAccessParameters{.only = "hex_key_2.5, hex_key_long_2.5"});
     StepVerdict v = judge(check, assembly, {screw_id}, {plate_id}, down);
     EXPECT_EQ(v.cost, 0);
     nlohmann::json data = data_of(v, "tool");
@@ -108,7 +108,7 @@ TEST(ToolAccess, SaysThatAScrewWithoutAnAxisWasNotChecked) {
 TEST(ToolAccess, WithoutAToolThatFitsItCostsOne) {
   Scene scene;
   const PartId screw_id = scene.add("screw", screw(), {0, 0, -10}), plate_id = scene.add("plate", plate());
-  const ToolAccess check(ToolAccessParams{.only = "hex_key_3"});
+  const ToolAccess check(ToolAccessParameters{.only = "hex_key_3"});
   const StepVerdict v = judge(check, scene.assembly(), {screw_id}, {plate_id}, -Vector3d::UnitZ());
   EXPECT_EQ(v.cost, 1);
   EXPECT_NE(v.notes.at(0).text.find("No tool of the catalogue fits 'screw'"), std::string::npos);
@@ -207,13 +207,13 @@ TEST(ToolAccess, AChangeOfTheToolCosts) {
   EXPECT_NEAR(judge(ToolAccess(), assembly, {first, second}, {plate_id}, down, &with_nut).cost, 0.1, 1e-12);
   EXPECT_EQ(judge(ToolAccess(), assembly, {first, second}, {plate_id}, down).cost, 0);
   // The tool that the step before needs is preferred.
-  const ToolAccess two(ToolAccessParams{.only = "hex_driver_2.5, hex_key_2.5"});
+  const ToolAccess two(ToolAccessParameters{.only = "hex_driver_2.5, hex_key_2.5"});
   EXPECT_EQ(judge(two, assembly, {second}, {plate_id, first}, down, &previous).cost, 0);
 }
 
 TEST(ToolAccess, UnknownToolsAndFilesAreErrors) {
-  EXPECT_THROW(ToolAccess(ToolAccessParams{.only = "hex_key_2.5, spanner"}), ConfigError);
-  EXPECT_THROW(ToolAccess(ToolAccessParams{.catalogue = "/no/such/tools.yaml"}), InputError);
+  EXPECT_THROW(ToolAccess(ToolAccessParameters{.only = "hex_key_2.5, spanner"}), ConfigError);
+  EXPECT_THROW(ToolAccess(ToolAccessParameters{.catalogue = "/no/such/tools.yaml"}), InputError);
 }
 
 }  // namespace

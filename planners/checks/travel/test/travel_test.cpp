@@ -33,7 +33,7 @@ struct Slit {
   std::vector<PlacedPart> moving{{0, Pose{}}}, present;
 };
 
-Trace way(const Vector3d& from) { return {{shapes::shift(from)}, {Pose{}}}; }
+Trace displacement(const Vector3d& from) { return {{shapes::shift(from)}, {Pose{}}}; }
 
 // Law: only the part of the way within the gap costs something, in any unit: the rest may be as long as it likes.
 TEST(Travel, CostsTheLengthOfTheSlit) {
@@ -41,7 +41,7 @@ TEST(Travel, CostsTheLengthOfTheSlit) {
   for (int k = 0; k < 10; ++k) {
     const double scale = rng.uniform(0.1, 30);
     Slit tight(0.05, scale);
-    const Trace path = way({-rng.uniform(2, 30) * scale, 0, 0});
+    const Trace path = displacement({-rng.uniform(2, 30) * scale, 0, 0});
     const StepVerdict v = Travel().judge(tight.question({1, 2}, path), RunContext{});
     EXPECT_NEAR(v.cost, 0.1, 0.05) << "the cube is one tenth of the assembly";
     EXPECT_NE(v.reason.find("% of the way"), std::string::npos);
@@ -53,7 +53,7 @@ TEST(Travel, CostsTheLengthOfTheSlit) {
 
 TEST(Travel, PushedThroughCostsMoreThanSetDown) {
   Slit slit(0.05);
-  const Trace through = way({11, 0, 0}), down = way({0, 0, 11});
+  const Trace through = displacement({11, 0, 0}), down = displacement({0, 0, 11});
   EXPECT_NEAR(Travel().judge(slit.question({1, 2}, through), RunContext{}).cost, 1.1, 0.1);
   EXPECT_LT(Travel().judge(slit.question({1}, down), RunContext{}).cost, 0.05);
   EXPECT_EQ(Travel().judge(slit.question({}, through), RunContext{}).cost, 0) << "nothing is there";

@@ -151,8 +151,8 @@ class SpaceSearch final : public PathSearch {
   void record(const Space& space) {
     const auto state = record_.listens() ? space.planner().farthest() : std::nullopt;
     if (!state) return;
-    const double way = (state->center - space.problem().space().start().center).norm();
-    record_.node(-1, space.problem().poses(*state), static_cast<double>(budget_.checks), way);
+    const double travel = (state->center - space.problem().space().start().center).norm();
+    record_.node(-1, space.problem().poses(*state), static_cast<double>(budget_.checks), travel);
   }
   bool starts_separated() {
     SamplingProblem& first = spaces_.front()->problem();

@@ -33,12 +33,12 @@ TEST(DisplacementSpace, MetricBoundsTravel) {
     EXPECT_LE(space.distance(a, c), space.distance(a, b) + space.distance(b, c) + 1e-9);
     EXPECT_NEAR(space.distance(a, space.between(a, b, 0.3)), 0.3 * space.distance(a, b), 1e-6);
     const Vector3d point = space.mover().center + space.mover().radius * shapes::random_vector(rng, -1, 1).normalized();
-    double way = 0;
+    double travel = 0;
     for (int k = 1; k <= 200; ++k)
-      way += (space.displacement(space.between(a, b, k / 200.0)) * point -
-              space.displacement(space.between(a, b, (k - 1) / 200.0)) * point)
-                 .norm();
-    EXPECT_LE(way, space.distance(a, b) + 1e-9);
+      travel += (space.displacement(space.between(a, b, k / 200.0)) * point -
+                 space.displacement(space.between(a, b, (k - 1) / 200.0)) * point)
+                    .norm();
+    EXPECT_LE(travel, space.distance(a, b) + 1e-9);
     EXPECT_LE(space.distance(a, b), space.getMaximumExtent() + 1e-9);
   }
 }

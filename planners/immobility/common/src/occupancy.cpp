@@ -54,20 +54,20 @@ std::optional<int> Occupancy::crossings(const Mixed& cell, const Vec3& to) const
   // Six times the volume of a tetrahedron, as a share of the product of its edges. Below this, rounding decides the
   // sign.
   constexpr double kTooFlat = 0.1 * kRounding;
-  const Vec3 way = to - cell.center;
+  const Vec3 displacement = to - cell.center;
   int sum = 0;
   for (const std::uint32_t t : cell.triangles) {
     const auto& corners = surface_->corners(t);
     const Vec3 a = corners[0] - cell.center, b = corners[1] - cell.center, c = corners[2] - cell.center;
     const Vec3 normal = (b - a).cross(c - a);
-    const double from_height = -normal.dot(a), to_height = normal.dot(way) + from_height;
+    const double from_height = -normal.dot(a), to_height = normal.dot(displacement) + from_height;
     // Relative to the edges, since the normal of a sliver is mostly rounding.
-    const double flat = kTooFlat * (b - a).norm() * (c - a).norm() * (a.norm() + way.norm());
+    const double flat = kTooFlat * (b - a).norm() * (c - a).norm() * (a.norm() + displacement.norm());
     // Both ends are certainly on one side.
     if ((from_height > flat && to_height > flat) || (from_height < -flat && to_height < -flat)) continue;
-    const double u = way.dot(a.cross(b)), v = way.dot(b.cross(c)), w = way.dot(c.cross(a));
+    const double u = displacement.dot(a.cross(b)), v = displacement.dot(b.cross(c)), w = displacement.dot(c.cross(a));
     const double slack =
-        kTooFlat * way.norm() * std::max({a.norm() * b.norm(), b.norm() * c.norm(), c.norm() * a.norm()});
+        kTooFlat * displacement.norm() * std::max({a.norm() * b.norm(), b.norm() * c.norm(), c.norm() * a.norm()});
     // The line certainly misses the triangle.
     if ((u > slack || v > slack || w > slack) && (u < -slack || v < -slack || w < -slack)) continue;
     if (std::min({std::abs(u), std::abs(v), std::abs(w)}) <= slack ||

@@ -118,17 +118,17 @@ TEST(Interlocked, WhateverTheJudgeOfThatDepthAcceptsStaysWithinTheBounds) {
   int accepted = 0;
   for (int i = 0; i < 300; ++i) {
     // Both simultaneously, each about the centre of its box.
-    Path way{{Pose{}, Pose{}}, {}};
+    Path displacement{{Pose{}, Pose{}}, {}};
     std::vector<double> turn, shift;
     const double share = rng.uniform(0.02, 0.5);
     for (const Mesh& m : {k.slab(), k.block()}) {
       const Vec3 w = random(share * found->turn), by = random(share * found->shift), c = m.box().center();
       const Eigen::Quaterniond q = rotation_from_vector(w);
-      way[1].push_back({c + by - q * c, q});
+      displacement[1].push_back({c + by - q * c, q});
       turn.push_back(w.norm());
       shift.push_back(by.norm());
     }
-    if (!strict.check_motion({0, 2}, {{1, Pose{}}}, way).valid) continue;
+    if (!strict.check_motion({0, 2}, {{1, Pose{}}}, displacement).valid) continue;
     ++accepted;
     EXPECT_LE(*std::max_element(turn.begin(), turn.end()), found->turn);
     EXPECT_LE(*std::max_element(shift.begin(), shift.end()), found->shift);

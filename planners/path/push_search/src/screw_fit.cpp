@@ -29,7 +29,7 @@ geometry::Twist fitted_screw(const geometry::Twist& rough, const Pose& from, con
   const double angle = 2 * half + 2 * std::numbers::pi * std::round((turned - 2 * half) / (2 * std::numbers::pi));
   if (std::abs(std::sin(half)) > kTellsAxis && about.dot(axis) > 0.9) {
     axis = about;
-    const Eigen::Vector3d way = is - was, across = way - axis * axis.dot(way);
+    const Eigen::Vector3d displacement = is - was, across = displacement - axis * axis.dot(displacement);
     on_axis = 0.5 * (was + is) + 0.5 / std::tan(half) * axis.cross(across);
   }
   const double pitch = axis.dot(is - was) / angle;

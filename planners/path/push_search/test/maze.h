@@ -77,8 +77,9 @@ class MazeWorld final : public World {
       for (std::size_t i = 0; i < state.bodies.size(); ++i) {
         const Vector3d& force = action.wrenches.at(i).force;
         if (force.norm() == 0) continue;
-        const Vector3d way = maze_.speed * duration / static_cast<double>(maze_.steps_per_advance) * force.normalized();
-        moved |= move(state.bodies[i].pose.t, way);
+        const Vector3d displacement =
+            maze_.speed * duration / static_cast<double>(maze_.steps_per_advance) * force.normalized();
+        moved |= move(state.bodies[i].pose.t, displacement);
       }
       if (moved && maze_.link && !maze_.link(state, action)) {
         state = was;
@@ -128,15 +129,16 @@ class MazeWorld final : public World {
 
  private:
   /// Moves the point as far as it is free, along a wall if the wall blocks it.
-  bool move(Vector3d& p, const Vector3d& way) const {
+  bool move(Vector3d& p, const Vector3d& displacement) const {
     const Vector3d before = p;
-    if (maze_.inside(p + way, learned_, scene_)) {
-      p += way;
+    if (maze_.inside(p + displacement, learned_, scene_)) {
+      p += displacement;
     } else {
       for (int axis = 0; axis < 3; ++axis)
-        if (const Vector3d next = p + way[axis] * Vector3d::Unit(axis); maze_.inside(next, learned_, scene_)) p = next;
+        if (const Vector3d next = p + displacement[axis] * Vector3d::Unit(axis); maze_.inside(next, learned_, scene_))
+          p = next;
     }
-    return (p - before).norm() > 1e-3 * way.norm();  // a creeping point counts as stalled
+    return (p - before).norm() > 1e-3 * displacement.norm();  // a creeping point counts as stalled
   }
 
   const Maze& maze_;

@@ -56,11 +56,11 @@ TEST(FittedScrew, GoesThroughAllPosesOfTheScrew) {
 TEST(FittedScrew, OfAStraightWayIsATranslation) {
   Rng rng(12);
   for (int round = 0; round < 50; ++round) {
-    const Vector3d way = any(rng);
-    const Pose from{any(rng), rotation_from_vector(any(rng))}, to{from.t + way, from.q};
-    const geometry::Twist fit = fitted_screw({way, Vector3d::Zero()}, from, to, any(rng), 1, 0);
+    const Vector3d displacement = any(rng);
+    const Pose from{any(rng), rotation_from_vector(any(rng))}, to{from.t + displacement, from.q};
+    const geometry::Twist fit = fitted_screw({displacement, Vector3d::Zero()}, from, to, any(rng), 1, 0);
     EXPECT_TRUE(fit.angular.isZero(0));
-    EXPECT_LT((fit.linear - way.normalized()).norm(), 1e-9);
+    EXPECT_LT((fit.linear - displacement.normalized()).norm(), 1e-9);
   }
 }
 

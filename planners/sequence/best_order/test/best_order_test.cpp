@@ -1,4 +1,5 @@
-// The order of a plan, compared with the cheapest of all orders of blocks on a lattice, which a search of its own finds.
+// The order of a plan, compared with the cheapest of all orders of blocks on a lattice, which a search of its own
+// finds.
 #include "best_order/best_order.h"
 
 #include <gtest/gtest.h>
@@ -73,7 +74,8 @@ struct Lattice {
     for (int x = 0; x < kSize; ++x)
       for (int y = 0; y < kSize; ++y)
         for (int z = 0; z < 2; ++z)
-          if (rng.uniform() < 0.85) used.insert(lattice.cells[{x, y, z}] = static_cast<PartId>(rng.below(lattice.parts)));
+          if (rng.uniform() < 0.85)
+            used.insert(lattice.cells[{x, y, z}] = static_cast<PartId>(rng.below(lattice.parts)));
     return used.size() == lattice.parts ? lattice : random(rng);
   }
 
@@ -135,7 +137,7 @@ class AllOrders {
 
 RunResult plan_of(const Assembly& assembly, const Objective& objective, std::shared_ptr<SequencePlanner> inner,
                   double effort, const RunOptions& options = {}, RunContext context = {}) {
-  BestOrderParams params;
+  BestOrderParameters params;
   params.effort = effort;
   params.of = {PluginChoice{"inner", {}, {}},
                [inner](PluginKind, const PluginChoice&) -> std::shared_ptr<void> { return inner; }};

@@ -51,7 +51,7 @@ class Idle final : public SequencePlanner {
 /// `inner`: a planner of the registry; empty: one that finds nothing.
 RunResult plan_to(PartId target, const Assembly& assembly, const Objective& objective, const std::string& inner,
                   double effort, Constraints constraints = {}) {
-  BestOrderParams params;
+  BestOrderParameters params;
   params.effort = effort;
   params.of = {PluginChoice{"inner", {}, {}}, [inner](PluginKind, const PluginChoice&) -> std::shared_ptr<void> {
                  if (inner.empty()) return std::make_shared<Idle>();
@@ -139,7 +139,7 @@ TEST(TargetOrder, CutsAPlanShort) {
     SequencePlannerTraits traits() const noexcept override { return {.keeps_constraints = true, .any_start = true}; }
   };
   const RunResult r = [] {
-    BestOrderParams params;
+    BestOrderParameters params;
     params.of = {PluginChoice{"inner", {}, {}},
                  [](PluginKind, const PluginChoice&) -> std::shared_ptr<void> { return std::make_shared<Ignores>(); }};
     PlanningSetup setup = fake::setup(fake::push, std::make_shared<BestOrder>(params));

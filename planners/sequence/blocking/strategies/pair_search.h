@@ -9,7 +9,7 @@ namespace dismantle::blocking {
 class PairSearch final : public Strategy {
  public:
   PairSearch(DisassemblyState& state, SearchHistory& history, PathSearcher& searcher, const Lookahead& lookahead,
-             const PathSearchParams& params)
+             const PathSearchParameters& params)
       : state_(state), history_(history), searcher_(searcher), lookahead_(lookahead), params_(params) {}
   std::string_view name() const noexcept override { return "pair_search"; }
   Cost cost() const noexcept override { return Cost::unlimited_search; }
@@ -22,7 +22,7 @@ class PairSearch final : public Strategy {
   SearchHistory& history_;
   PathSearcher& searcher_;
   const Lookahead& lookahead_;
-  const PathSearchParams& params_;
+  const PathSearchParameters& params_;
 };
 
 }  // namespace dismantle::blocking

@@ -19,7 +19,7 @@ constexpr double kShareOfProof = 0.5;
 
 PartialTranslation::PartialTranslation(DisassemblyState& state, PathOracle& oracle, const PairSweep& sweep,
                                        StraightMotion* straight, SnapFits& snaps,
-                                       const PartialTranslationParams& params)
+                                       const PartialTranslationParameters& params)
     : state_(state),
       oracle_(oracle),
       straight_(straight),

@@ -16,7 +16,7 @@ class PartialTranslation final : public Strategy {
  public:
   /// `straight`: null when straight removals are switched off; then only translations within the group are made.
   PartialTranslation(DisassemblyState& state, PathOracle& oracle, const PairSweep& sweep, StraightMotion* straight,
-                     SnapFits& snaps, const PartialTranslationParams& params);
+                     SnapFits& snaps, const PartialTranslationParameters& params);
   std::string_view name() const noexcept override { return "partial_translation"; }
   Cost cost() const noexcept override { return Cost::arrangements; }
   Result apply(GroupState& group) override;
@@ -47,7 +47,7 @@ class PartialTranslation final : public Strategy {
   PathOracle& oracle_;
   StraightMotion* straight_;
   SnapFits& snaps_;
-  const PartialTranslationParams& params_;
+  const PartialTranslationParameters& params_;
   TranslationSearch translations_;
   LatticeSearch on_grid_;
   PerGroup<Progress> progress_;

@@ -8,7 +8,8 @@ namespace dismantle::blocking {
 
 class PathSearch final : public Strategy {
  public:
-  PathSearch(DisassemblyState& state, SearchHistory& history, PathSearcher& searcher, const PathSearchParams& params)
+  PathSearch(DisassemblyState& state, SearchHistory& history, PathSearcher& searcher,
+             const PathSearchParameters& params)
       : state_(state), history_(history), searcher_(searcher), params_(params) {}
   std::string_view name() const noexcept override { return "path_search"; }
   Cost cost() const noexcept override { return Cost::limited_search; }
@@ -21,7 +22,7 @@ class PathSearch final : public Strategy {
   DisassemblyState& state_;
   SearchHistory& history_;
   PathSearcher& searcher_;
-  const PathSearchParams& params_;
+  const PathSearchParameters& params_;
 };
 
 }  // namespace dismantle::blocking

@@ -10,7 +10,7 @@ namespace dismantle::blocking {
 class PostponedSearch final : public Strategy {
  public:
   PostponedSearch(DisassemblyState& state, const SearchHistory& history, PathSearcher& searcher,
-                  const PathSearchParams& params)
+                  const PathSearchParameters& params)
       : state_(state), history_(history), searcher_(searcher), params_(params) {}
   std::string_view name() const noexcept override { return "postponed_search"; }
   Cost cost() const noexcept override { return Cost::unlimited_search; }
@@ -20,7 +20,7 @@ class PostponedSearch final : public Strategy {
   DisassemblyState& state_;
   const SearchHistory& history_;
   PathSearcher& searcher_;
-  const PathSearchParams& params_;
+  const PathSearchParameters& params_;
 };
 
 }  // namespace dismantle::blocking

@@ -13,10 +13,10 @@ namespace {
 /// Unit vector along which a part with this box advances: along the axis if it rotates more than it translates, as a
 /// screw does; otherwise as the centre of the box moves. Zero for no motion.
 Eigen::Vector3d direction_of(const Pose& from, const Pose& to, const Aabb& box) {
-  const Eigen::Vector3d way = to * box.center() - from * box.center();
+  const Eigen::Vector3d offset_by = to * box.center() - from * box.center();
   const Eigen::Vector3d turn = rotation_vector(to.q * from.q.conjugate());
-  if (0.5 * box.size().norm() * turn.norm() < way.norm()) return way.stableNormalized();
-  return (turn.dot(way) * turn).stableNormalized();
+  if (0.5 * box.size().norm() * turn.norm() < offset_by.norm()) return offset_by.stableNormalized();
+  return (turn.dot(offset_by) * turn).stableNormalized();
 }
 
 }  // namespace

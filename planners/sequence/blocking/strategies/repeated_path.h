@@ -18,7 +18,8 @@ namespace dismantle::blocking {
 /// verification usually costs less than a search. Straight paths are left to free_part.
 class RepeatedPath final : public Strategy {
  public:
-  RepeatedPath(DisassemblyState& state, PathOracle& oracle, const PairSweep& sweep, const RepeatedPathParams& params)
+  RepeatedPath(DisassemblyState& state, PathOracle& oracle, const PairSweep& sweep,
+               const RepeatedPathParameters& params)
       : state_(state), oracle_(oracle), sweep_(sweep), params_(params) {}
   std::string_view name() const noexcept override { return "repeated_path"; }
   Cost cost() const noexcept override { return Cost::pair_sweeps; }
@@ -40,7 +41,7 @@ class RepeatedPath final : public Strategy {
   DisassemblyState& state_;
   PathOracle& oracle_;
   const PairSweep& sweep_;
-  const RepeatedPathParams& params_;
+  const RepeatedPathParameters& params_;
   std::vector<Known> known_;
   bool proposes_ = false;  ///< the change comes from this strategy
   std::map<std::pair<PartId, PartId>, std::optional<Pose>> displacements_;

@@ -18,7 +18,7 @@ namespace dismantle::blocking {
 class RotationInPlace final : public Strategy {
  public:
   RotationInPlace(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight, const PairSweep& sweep,
-                  const RotationParams& params)
+                  const RotationParameters& params)
       : state_(state), oracle_(oracle), straight_(straight), sweep_(sweep), params_(params) {}
   std::string_view name() const noexcept override { return "rotation_in_place"; }
   Cost cost() const noexcept override { return Cost::arc_sweeps; }
@@ -51,7 +51,7 @@ class RotationInPlace final : public Strategy {
   PathOracle& oracle_;
   StraightMotion& straight_;
   const PairSweep& sweep_;
-  const RotationParams& params_;
+  const RotationParameters& params_;
   PerGroup<bool> done_;
   std::map<PartId, std::vector<RotationAxis>> axes_;
   /// Rotations that have already freed another part: members of the group, part, orientation.

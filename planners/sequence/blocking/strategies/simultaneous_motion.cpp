@@ -18,7 +18,7 @@ double travel(const Mesh& mesh, const Pose& from, const Pose& to) {
 
 SimultaneousMotion::SimultaneousMotion(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight,
                                        const Lookahead& lookahead, const SearchHistory& history, SnapFits& snaps,
-                                       const SimultaneousMotionParams& params, unsigned max_depth, double play)
+                                       const SimultaneousMotionParameters& params, unsigned max_depth, double play)
     : state_(state),
       oracle_(oracle),
       straight_(straight),

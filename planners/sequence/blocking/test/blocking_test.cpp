@@ -77,7 +77,7 @@ TEST(Blocking, UpwardsLeavesTheBaseToTheEnd) {
       const double x = rng.uniform(-0.8, 0.2), y = rng.uniform(-0.8, 0.2), z = 0.6 + 1.1 * static_cast<double>(k);
       parts.push_back({"block" + std::to_string(k), {{{x, y, z}, {x + 1, y + 1, z + 1}}}});
     }
-    BlockingParams params;
+    BlockingParameters params;
     params.upwards = blocking::Upwards::on;
     const RunResult r = take_apart(fake::assembly_of(parts), 1, {}, &helpless, {}, params);
     ASSERT_EQ(r.outcome, Outcome::solved);
@@ -110,7 +110,7 @@ TEST(Blocking, UpwardsTakesTheHighestFirstOfWhatPeopleBuildInSteps) {
     Assembly assembly = fake::assembly_of(towers(rng, top));
     assembly.reference_order.push_back({1, {}, ""});
     for (const Part& part : assembly.parts) assembly.reference_order[0].parts.push_back(part.id);
-    BlockingParams params;
+    BlockingParameters params;
     params.upwards = blocking::Upwards::on;
     const RunResult r = take_apart(assembly, 1, {}, &helpless, {}, params);
     ASSERT_EQ(r.outcome, Outcome::solved);
@@ -137,7 +137,7 @@ TEST(Blocking, UpwardsTakesOutWholeWhatTheFileBuildsByItself) {
           groups[tower].insert(part.name);
           assembly.reference_order.push_back({1, {part.id}, tower});
         }
-    BlockingParams params;
+    BlockingParameters params;
     params.upwards = blocking::Upwards::on;
     const RunResult r = take_apart(assembly, 1, {}, &helpless, {}, params);
     ASSERT_EQ(r.outcome, Outcome::solved);
@@ -174,7 +174,7 @@ TEST(Blocking, ShiftsWhatIsInTheWayAndLeavesItThere) {
   EXPECT_EQ(r.plan.disassembly[1].separates[0][0], "drawer");
   EXPECT_EQ(r.plan.disassembly[1].after, std::vector<unsigned>{1});
   EXPECT_EQ(r.plan.status, PlanStatus::partial) << "the bar never leaves";
-  BlockingParams no_slides;
+  BlockingParameters no_slides;
   no_slides.translation_states = 0;
   RunContext context;
   const RunResult without =
@@ -253,7 +253,7 @@ TEST(Blocking, TurnsWhatIsInTheWayAndLeavesItTurned) {
   for (int trial = 0; trial < 8; ++trial) {
     const Assembly assembly = latched_rails(rng.uniform(-0.4, 0.4), rng.uniform(0.6, 0.9));
     for (const bool turns : {true, false}) {
-      BlockingParams params;
+      BlockingParameters params;
       params.rotations = turns;
       params.translation_states = 0;
       RunContext context;

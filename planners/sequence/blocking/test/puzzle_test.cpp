@@ -70,10 +70,10 @@ int moves_to_first_separation(const Plan& plan) {
     std::optional<Vec3> last;
     const auto& poses = step.moves.front().poses;
     for (std::size_t k = 0; k + 1 < poses.size(); ++k) {
-      const Vec3 way = poses[k + 1].t - poses[k].t;
-      if (way.norm() < 1e-9) continue;
-      if (!last || last->dot(way.normalized()) < 0.999) ++moves;
-      last = way.normalized();
+      const Vec3 displacement = poses[k + 1].t - poses[k].t;
+      if (displacement.norm() < 1e-9) continue;
+      if (!last || last->dot(displacement.normalized()) < 0.999) ++moves;
+      last = displacement.normalized();
     }
     if (!step.separates.empty()) break;
   }
@@ -104,7 +104,7 @@ TEST(Puzzles, AStoppedRunSaysHowManyArrangementsWait) {
         if (x < 0 || y < 0 || z != 0 || x > 3 || y > 3) pieces[0].push_back({x, y, z});
   for (const Cell2& at : {Cell2{0, 0}, Cell2{2, 0}, Cell2{0, 2}, Cell2{2, 3}}) pieces.push_back({{at[0], at[1], 0}});
   const Assembly assembly = assembly_of(pieces, Pose{}, Vec3::Ones());
-  BlockingParams params;
+  BlockingParameters params;
   params.translation_states = 50;
   params.rotations = params.simultaneous = false;
   const auto stops = [](const PathQuery&, RunContext& context) {

@@ -41,8 +41,8 @@ fake::Script path_of(PartId part) {
   };
 }
 
-BlockingParams searches_only() {
-  BlockingParams params;
+BlockingParameters searches_only() {
+  BlockingParameters params;
   params.translation_states = 0;
   params.groups = params.rotations = params.simultaneous = false;
   return params;
@@ -60,7 +60,7 @@ TEST(RepeatedPath, CopiesLeaveOnThePathOfTheFirst) {
     const RunResult r = fake::take_apart(assembly, 1, {}, path_of(first), {}, searches_only());
     EXPECT_EQ(r.outcome, Outcome::solved);
     EXPECT_EQ(r.sequence_counts.at("repeated"), static_cast<double>(n - 1));
-    BlockingParams off = searches_only();
+    BlockingParameters off = searches_only();
     off.repeated_paths = false;
     EXPECT_NE(fake::take_apart(assembly, 1, {}, path_of(first), {}, off).outcome, Outcome::solved);
   }

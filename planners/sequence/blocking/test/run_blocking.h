@@ -25,7 +25,7 @@ inline PathResult shallow(const PathQuery& query, RunContext&) {
 /// Runs the planner, and expects that the plan is valid.
 inline RunResult take_apart(const Assembly& assembly, unsigned threads = 1, const RunOptions& options = {},
                             Script planner = &helpless, const std::vector<NamedProver>& provers = {},
-                            const BlockingParams& params = {}) {
+                            const BlockingParameters& params = {}) {
   RunContext context;
   context.threads = threads;
   const auto prover_of = [&](const std::string& kind) -> std::shared_ptr<const ImmobilityProver> {

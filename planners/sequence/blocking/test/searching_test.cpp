@@ -15,7 +15,7 @@ TEST(BlockingSearches, DoesNotRepeatSearchesWhileTheirBlockersStand) {
   // still there is not asked for again at the same depth.
   FakeMachine machine(12);
   for (PartId k = 0; k + 1 < 12; ++k) machine.before[k] = {k + 1};
-  BlockingParams params;
+  BlockingParameters params;
   params.order = PartOrder::as_given;
   Blocking planner(params);
   const FakeRun run = run_on(planner, machine, seeded(1));
@@ -36,7 +36,7 @@ TEST(BlockingSearches, EachMayResumeTheLastOfThePart) {
     Notes notes;
     RunContext context = seeded(1);
     const Assembly assembly = machine.assembly();
-    Blocking planner(BlockingParams{});
+    Blocking planner(BlockingParameters{});
     const Constraints constraints;
     const Objective objective;
     const SequenceQuery query{assembly, whole_assembly(assembly), constraints, objective};

@@ -28,7 +28,7 @@ struct AtOnce {
 };
 
 TEST(Blocking, MovesTwoAtOnceWhereOneIsHeldByTheOtherAlone) {
-  BlockingParams params;
+  BlockingParameters params;
   params.groups = params.rotations = false;
   params.translation_states = 0;
   for (const bool at_once : {true, false}) {
@@ -61,7 +61,7 @@ TEST(Blocking, MovesTwoAtOnceWhereOneIsHeldByTheOtherAlone) {
 }
 
 TEST(Blocking, WhoMayNotLeaveOrMoveIsNotAskedForAtOnce) {
-  BlockingParams params;
+  BlockingParameters params;
   params.groups = params.rotations = false;
   params.translation_states = 0;
   const auto asked = [&](const Constraints& constraints) {
@@ -118,7 +118,7 @@ TEST(Blocking, SetsThatMoveAtOnceAreFewHoweverManyPartsAreLeft) {
     }
     return r;
   };
-  BlockingParams params;
+  BlockingParameters params;
   params.groups = params.rotations = false;
   params.translation_states = 0;
   RunContext context;

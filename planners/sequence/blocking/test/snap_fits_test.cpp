@@ -104,8 +104,8 @@ TEST(SnapFits, FewPartsThatAreAllSearchedForAreLeftToForcedSteps) {
   const Assembly made =
       shapes::assembly_of({shapes::joined(case_with_lip(0.1), shapes::moved(case_with_lip(0.1), beside)), block(),
                            shapes::moved(block(), beside)});
-  EXPECT_LE(most_of(deepest_searches(made, ForceWhen::last_resort)), BlockingParams{}.snap_depth_of_few);
-  EXPECT_GT(most_of(deepest_searches(made, ForceWhen::off)), BlockingParams{}.snap_depth_of_few);
+  EXPECT_LE(most_of(deepest_searches(made, ForceWhen::last_resort)), BlockingParameters{}.snap_depth_of_few);
+  EXPECT_GT(most_of(deepest_searches(made, ForceWhen::off)), BlockingParameters{}.snap_depth_of_few);
 }
 
 TEST(SnapFits, DoNotCountInAnAssemblyOfTwoParts) {

@@ -49,17 +49,18 @@ bool HighestFirst::leaves(GroupState& group, const Subassemblies& ids, std::span
   return false;
 }
 
-/// The shortest way first.
+/// The shortest path first.
 bool HighestFirst::group_leaves(GroupState& group, const Subassemblies& ids) {
-  std::vector<std::pair<double, std::size_t>> ways;
+  std::vector<std::pair<double, std::size_t>> candidates;
   for (const std::size_t d : straight_.directions().common)
     if (straight_.admits(filter_, d) && !straight_.was_refused(ids, d)) {
       const auto known = blocker_.find({ids, d});
       if (known == blocker_.end() || !group.contains(known->second))
-        ways.emplace_back(straight_.path_length(group, ids, d), d);
+        candidates.emplace_back(straight_.path_length(group, ids, d), d);
     }
-  std::stable_sort(ways.begin(), ways.end(), [](const auto& a, const auto& b) { return a.first < b.first - 1e-9; });
-  for (const auto& [length, d] : ways) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first - 1e-9; });
+  for (const auto& [length, d] : candidates) {
     const auto blocker = straight_.blocker_of(group, ids, d);
     if (state_.stop()) return false;
     if (blocker)

@@ -43,10 +43,10 @@ class BruteForce {
  private:
   double measured(PartId p, PartId q, std::size_t d) {
     const double sign = d % 2 == 0 ? 1 : -1;
-    const Vector3d way = 30 * sign * Vector3d::Unit(static_cast<Eigen::Index>(d / 2));
+    const Vector3d displacement = 30 * sign * Vector3d::Unit(static_cast<Eigen::Index>(d / 2));
     RunContext context;
     const MotionDepthOptions options{.absolute = 0.03, .relative = 0.03, .stop_above = 0.6, .most_poses = 300};
-    const auto found = meter_.deepest({p}, {{q, Pose{}}}, {{Pose{}}, {shapes::shift(way)}}, options, context);
+    const auto found = meter_.deepest({p}, {{q, Pose{}}}, {{Pose{}}, {shapes::shift(displacement)}}, options, context);
     return found ? found->excess() : 0;
   }
   Sum least(unsigned set) {
@@ -118,12 +118,9 @@ Assembly two_rings(Rng& rng) {
 /// A spacer and a filler beside it between two plates with a wall on one side and lips on the three others.
 Assembly spacer_between_plates(Rng& rng) {
   const auto lip = [&] { return rng.uniform(0.1, 0.9); };
-  const std::vector<fake::Box> housing{{{-0.5, -0.5, -0.5}, {6.5, 4.5, -0.02}},
-                                       {{-0.5, -0.5, 2.02}, {6.5, 4.5, 2.5}},
-                                       {{-0.5, -0.5, 0}, {-0.1, 4.5, 2}},
-                                       {{6.1, 0, 0}, {6.5, 4, lip()}},
-                                       {{0, -0.5, 0}, {6, -0.1, lip()}},
-                                       {{0, 4.1, 0}, {6, 4.5, lip()}}};
+  const std::vector<fake::Box> housing{{{-0.5, -0.5, -0.5}, {6.5, 4.5, -0.02}}, {{-0.5, -0.5, 2.02}, {6.5, 4.5, 2.5}},
+                                       {{-0.5, -0.5, 0}, {-0.1, 4.5, 2}},       {{6.1, 0, 0}, {6.5, 4, lip()}},
+                                       {{0, -0.5, 0}, {6, -0.1, lip()}},        {{0, 4.1, 0}, {6, 4.5, lip()}}};
   const double border = rng.uniform(1.5, 4);
   return fake::assembly_of({{"housing", housing},
                             {"filler", {{{0, 0, 0}, {border, 4, rng.uniform(1, 1.9)}}}},
@@ -132,10 +129,12 @@ Assembly spacer_between_plates(Rng& rng) {
 
 /// A box with a cover that four hooks hold, and a block inside.
 Assembly cover_with_snaps(Rng& rng) {
-  std::vector<fake::Box> base{{{0, 0, -0.5}, {6, 6, -0.02}}, {{0, 0, 0}, {0.5, 6, 2}},       {{5.5, 0, 0}, {6, 6, 2}},
-                              {{0.52, 0, 0}, {5.48, 0.5, 2}}, {{0.52, 5.5, 0}, {5.48, 6, 2}}};
-  std::vector<fake::Box> cover{
-      {{0, 0, 2.02}, {6, 6, 2.5}}, {{0, -0.5, 1}, {6, -0.02, 2}}, {{0, 6.02, 1}, {6, 6.5, 2}}};
+  std::vector<fake::Box> base{{{0, 0, -0.5}, {6, 6, -0.02}},
+                              {{0, 0, 0}, {0.5, 6, 2}},
+                              {{5.5, 0, 0}, {6, 6, 2}},
+                              {{0.52, 0, 0}, {5.48, 0.5, 2}},
+                              {{0.52, 5.5, 0}, {5.48, 6, 2}}};
+  std::vector<fake::Box> cover{{{0, 0, 2.02}, {6, 6, 2.5}}, {{0, -0.5, 1}, {6, -0.02, 2}}, {{0, 6.02, 1}, {6, 6.5, 2}}};
   for (const double y : {1.0, 4.0}) {
     const double bite = rng.uniform(0.05, 0.3);
     base.push_back({{-bite, y, 1}, {-0.005, y + 1, 1.5}});

@@ -136,7 +136,7 @@ TEST(ForcedMotions, AQuickMotionIsThatOfAGroupSeenAnew) {
     const RunOptions options;
     RunContext context;
     const std::unique_ptr<PathOracle> oracle = make_oracle(assembly, nothing, setup, options, verifier, context);
-    const LeastCutParams params;
+    const LeastCutParameters params;
     ForcedMotions kept(assembly, *oracle, none, params);
     while (group.size() > 1) {
       ForcedMotions fresh(assembly, *oracle, none, params);

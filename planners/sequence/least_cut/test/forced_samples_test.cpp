@@ -80,17 +80,17 @@ TEST_P(ForcedSamples, TheStatedDepthAgreesWithBruteForceToATenth) {
   for (const Part& part : assembly.parts) parts[part.name] = {sampled(*part.mesh), Pose{}};
   for (const PlanStep& step : plan.disassembly) {
     for (const PlanMove& move : step.moves) {
-      std::vector<Pose> way;
-      for (const Pose& p : move.poses) way.push_back(assembly.normalization.pose_to_internal(p));
-      parts.at(move.part).pose = way.back();
+      std::vector<Pose> path;
+      for (const Pose& p : move.poses) path.push_back(assembly.normalization.pose_to_internal(p));
+      parts.at(move.part).pose = path.back();
       if (!step.forced || step.forced->part != move.part) continue;
       const Here &mine = parts.at(move.part), &other = parts.at(step.forced->other);  // the other does not move
       double brute = 0;
       constexpr std::size_t kInstants = 60;
       for (std::size_t k = 0; k <= kInstants; ++k) {
-        const double at = static_cast<double>(k * (way.size() - 1)) / kInstants;
-        const auto i = std::min(static_cast<std::size_t>(at), way.size() - 2);
-        const Pose pose = screw_interpolate(way[i], way[i + 1], at - static_cast<double>(i));
+        const double at = static_cast<double>(k * (path.size() - 1)) / kInstants;
+        const auto i = std::min(static_cast<std::size_t>(at), path.size() - 2);
+        const Pose pose = screw_interpolate(path[i], path[i + 1], at - static_cast<double>(i));
         brute = std::max({brute, deepest(mine.surface, pose, other.surface, other.pose),
                           deepest(other.surface, other.pose, mine.surface, pose)});
       }

@@ -19,8 +19,9 @@ inline PluginRef<SequencePlanner> ref_to(std::string type, std::shared_ptr<Seque
 
 /// The planner, then forced steps.
 inline std::shared_ptr<SequencePlanner> last_resort_after(std::shared_ptr<SequencePlanner> first) {
-  ChainParams params;
-  params.of = {ref_to("first", std::move(first)), ref_to("least_cut", std::make_shared<LeastCut>(LeastCutParams{}))};
+  ChainParameters params;
+  params.of = {ref_to("first", std::move(first)),
+               ref_to("least_cut", std::make_shared<LeastCut>(LeastCutParameters{}))};
   return std::make_shared<Chain>(params);
 }
 

@@ -127,7 +127,7 @@ TEST(Mcts, SolvesEveryMachineThatHasAnOrder) {
   Rng rng(3);
   for (int trial = 0; trial < 150; ++trial) {
     const FakeMachine machine = FakeMachine::random(1 + rng.below(14), rng.uniform(), 4, rng);
-    Mcts planner(MctsParams{});
+    Mcts planner(MctsParameters{});
     const FakeRun run = run_on(planner, machine, seeded(static_cast<std::uint64_t>(trial)));
     expect_lawful(run, machine);
     EXPECT_EQ(run.result.outcome, Outcome::solved);
@@ -141,7 +141,7 @@ TEST(Mcts, MoreSimulationsFewerSearches) {
   for (int trial = 0; trial < 60; ++trial) {
     const FakeMachine machine = FakeMachine::random(12, 0.4, 1, rng);
     for (const int many : {0, 1}) {
-      MctsParams params;
+      MctsParameters params;
       params.simulations = many == 1 ? 300 : 1;
       Mcts planner(params);
       searches[many] += run_on(planner, machine, seeded(static_cast<std::uint64_t>(trial))).asked.size();
@@ -154,7 +154,7 @@ TEST(Mcts, KeepsToItsSearches) {
   Rng rng(5);
   for (std::int64_t most = 1; most < 20; ++most) {
     const FakeMachine machine = FakeMachine::random(12, 0.4, 3, rng);
-    MctsParams params;
+    MctsParameters params;
     params.max_attempts = most;
     Mcts planner(params);
     const FakeRun run = run_on(planner, machine, seeded(1));
@@ -167,7 +167,7 @@ TEST(Mcts, KeepsToItsSearches) {
   }
 }
 
-TEST(Mcts, ParametersAreDeclaredInFull) { EXPECT_TRUE(problems_of_schema(Schema<MctsParams>().specs()).empty()); }
+TEST(Mcts, ParametersAreDeclaredInFull) { EXPECT_TRUE(problems_of_schema(Schema<MctsParameters>().specs()).empty()); }
 
 }  // namespace
 }  // namespace dismantle

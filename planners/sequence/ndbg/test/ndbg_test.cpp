@@ -13,7 +13,7 @@ namespace dismantle {
 namespace {
 
 RunResult take_apart(
-    const Assembly& assembly, const NdbgParams& params = {}, unsigned threads = 1,
+    const Assembly& assembly, const NdbgParameters& params = {}, unsigned threads = 1,
     fake::Script planner = [](const PathQuery&, RunContext&) { return fake::outcome(Outcome::exhausted); }) {
   RunContext context;
   context.threads = threads;
@@ -68,10 +68,10 @@ TEST(Ndbg, FindsWhatOnlyTheArrangementHas) {
     slant(0, 2) = rng.uniform(0.4, 0.9);
     slant(1, 2) = rng.uniform(-0.9, -0.4);
     const Assembly assembly = bar_in_tube(random_rotation(rng) * slant);
-    NdbgParams params;
+    NdbgParameters params;
     params.circles = 0;
     EXPECT_EQ(take_apart(assembly, params).outcome, Outcome::exhausted);
-    params.circles = NdbgParams{}.circles;
+    params.circles = NdbgParameters{}.circles;
     params.cells = NdbgCells::vertices;
     EXPECT_EQ(take_apart(assembly, params).outcome, Outcome::solved);
   }
@@ -116,13 +116,13 @@ TEST(Ndbg, SaysWhatNeverComesOut) {
 }
 
 TEST(Ndbg, AsksThePathPlannerOnlyWhereItIsTold) {
-  NdbgParams params;
+  NdbgParameters params;
   params.searches = true;
   EXPECT_GT(take_apart(fake::closed_box(), params).counts.attempts, 0u);
   EXPECT_EQ(take_apart(fake::tube_with_blocks(3), params).counts.attempts, 0u);
 }
 
-TEST(Ndbg, ParametersAreDeclaredInFull) { EXPECT_TRUE(problems_of_schema(Schema<NdbgParams>().specs()).empty()); }
+TEST(Ndbg, ParametersAreDeclaredInFull) { EXPECT_TRUE(problems_of_schema(Schema<NdbgParameters>().specs()).empty()); }
 
 }  // namespace
 }  // namespace dismantle

@@ -20,7 +20,7 @@ using state_based::MotionStates;
 
 PathResult helpless(const PathQuery&, RunContext&) { return fake::outcome(Outcome::exhausted); }
 
-RunResult take_apart(const Assembly& assembly, const StateBasedParams& params = {}, unsigned threads = 1) {
+RunResult take_apart(const Assembly& assembly, const StateBasedParameters& params = {}, unsigned threads = 1) {
   RunContext context;
   context.threads = threads;
   const RunOptions options;
@@ -107,7 +107,7 @@ TEST(StateBased, TranslatesRoundBends) {
 
 /// States that the slider reached while the stopper was there are kept and extended.
 TEST(StateBased, GoesOnFromTheStatesThatItHas) {
-  StateBasedParams params;
+  StateBasedParameters params;
   params.order = PartOrder::as_given;
   const RunResult r = take_apart(stopped_passage(), params);
   EXPECT_EQ(r.outcome, Outcome::solved);
@@ -209,7 +209,7 @@ TEST(StateBased, SaysWhatNeverComesOut) {
 }
 
 TEST(StateBased, ParametersAreDeclaredInFull) {
-  EXPECT_TRUE(problems_of_schema(Schema<StateBasedParams>().specs()).empty());
+  EXPECT_TRUE(problems_of_schema(Schema<StateBasedParameters>().specs()).empty());
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ class Writer {
   }
 
   /// Writes only non-default values, so that a file for mesh input does not need the CAD importer.
-  void importers(const ImportParams& params, const Registry& registry) {
+  void importers(const ImportParameters& params, const Registry& registry) {
     if (params.empty()) return;
     line("importers:");
     for (const auto& [id, values] : params) {
@@ -131,8 +131,8 @@ std::string relative_to(const fs::path& path, const fs::path& folder) {
 
 }  // namespace
 
-ImportParams import_params_of(const RunConfig& config, const Registry& registry) {
-  ImportParams out;
+ImportParameters import_params_of(const RunConfig& config, const Registry& registry) {
+  ImportParameters out;
   for (const auto& [id, values] : config.importers)
     for (const auto& spec : registry.find(PluginKind::importer, id).type.params)
       if (const auto& value = values.at(spec.name); value != spec.fallback) out[id][spec.name] = value;

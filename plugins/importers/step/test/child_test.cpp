@@ -14,7 +14,7 @@ using testing::Scratch;
 
 class StepChild : public ::testing::Test {
  protected:
-  std::string error_with(const std::string& script, const StepParams& params = {}) {
+  std::string error_with(const std::string& script, const StepParameters& params = {}) {
     StepImporter importer(params, scratch_.program("reader", script));
     return input_error([&] { importer.read(file_, {}); });
   }
@@ -54,7 +54,7 @@ TEST_F(StepChild, AMissingReaderSaysWhatToInstall) {
 }
 
 TEST_F(StepChild, AHangIsEndedByTheTimeLimitAndByWhoWaits) {
-  StepParams params;
+  StepParameters params;
   params.time_limit = 0.2;
   for (const char* script :
        {"sleep 1000\n", "exec >&- 2>&-; sleep 1000\n", "while :; do :; done\n", "sleep 1000 & wait\n"}) {
@@ -76,7 +76,7 @@ TEST_F(StepChild, AHangIsEndedByTheTimeLimitAndByWhoWaits) {
 }
 
 TEST_F(StepChild, NothingIsLeftRunning) {
-  StepParams params;
+  StepParameters params;
   params.time_limit = 0.3;
   error_with("sleep 1000 & echo $! > '" + (scratch_ / "grandchild").string() + "'; wait\n", params);
   std::ifstream in(scratch_ / "grandchild");

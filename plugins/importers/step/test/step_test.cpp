@@ -30,7 +30,7 @@ struct Read {
   std::string log;
 };
 
-Read read(const std::filesystem::path& file, const StepParams& params = {}) {
+Read read(const std::filesystem::path& file, const StepParameters& params = {}) {
   Read out;
   RunContext context;
   context.on_log = [&](LogLevel, std::string_view text) { out.log += std::string(text) + "\n"; };
@@ -202,7 +202,7 @@ TEST(StepImporter, FinerDeflectionIsCloserAndStaysClosed) {
   double before = 1;
   std::size_t triangles = 0;
   for (const double share : {0.05, 0.01, 0.002, 0.0004}) {
-    StepParams params;
+    StepParameters params;
     params.linear_deflection = share;
     params.assembly_deflection = 0;
     params.angular_deflection = 1.5;
@@ -221,7 +221,7 @@ TEST(StepImporter, FinerDeflectionIsCloserAndStaysClosed) {
     before = missing;
     triangles = ball.mesh.triangles.size();
   }
-  StepParams few;
+  StepParameters few;
   few.triangle_limit = 100;
   const std::string error = input_error([&] { read(scratch / "a.step", few); });
   EXPECT_NE(error.find("more than 100 triangles"), std::string::npos) << error;
@@ -256,7 +256,7 @@ std::string sample_text() {
 TEST(StepImporter, DamageGivesPartsOrAnInputError) {
   const std::string whole = sample_text();
   Scratch scratch;
-  StepParams params;
+  StepParameters params;
   params.time_limit = 20;
   params.memory_limit = 2048;
   Rng rng(7);
@@ -303,7 +303,7 @@ TEST(StepImporter, TheMemoryLimitIsNamed) {
 #endif
   Scratch scratch;
   const auto file = scratch.write("a.step", sample_text());
-  StepParams params;
+  StepParameters params;
   params.memory_limit = 40;  // not enough to load Open CASCADE
   const std::string error = input_error([&] { read(file, params); });
   EXPECT_NE(error.find("more memory than 40 MiB: raise importers.step.memory_limit"), std::string::npos) << error;

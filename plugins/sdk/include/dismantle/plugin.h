@@ -1,11 +1,11 @@
 /// What a plugin includes: registration macro and registrar. See docs/write-a-planner.md.
 ///
 ///   DISMANTLE_PLUGIN("acme.planners", "1.2.0", "BSD-3-Clause", "https://example.org") {
-///     r.add<dismantle::PathPlanner, AcmeRrt, AcmeRrtParams>("acme.rrt", "Single-tree RRT in SE(3).", {.source =
+///     r.add<dismantle::PathPlanner, AcmeRrt, AcmeRrtParameters>("acme.rrt", "Single-tree RRT in SE(3).", {.source =
 ///     "LaValle 1998"});
 ///   }
 ///
-/// Impl is constructible from `const Params&`. Params declares itself (dismantle/parameters.h).
+/// Impl is constructible from `const Parameters&`. Parameters declares itself (dismantle/parameters.h).
 #pragma once
 
 #include <functional>
@@ -29,8 +29,8 @@
 namespace dismantle {
 
 /// For plugin types without parameters.
-struct NoParams {
-  static void describe(Schema<NoParams>&) {}
+struct NoParameters {
+  static void describe(Schema<NoParameters>&) {}
 };
 
 /// Facts about a type that can be read without creating an object.
@@ -54,9 +54,9 @@ struct PluginType {
 /// Collects the types of a plugin. The host creates it; the plugin only fills it.
 class Registrar {
  public:
-  template <class Interface, class Impl, class Params = NoParams>
+  template <class Interface, class Impl, class Parameters = NoParameters>
   void add(std::string id, std::string summary, TypeTraits traits = {}) {
-    auto schema = std::make_shared<Schema<Params>>();
+    auto schema = std::make_shared<Schema<Parameters>>();
     PluginType type;
     type.kind = PluginKindOf<Interface>::value;
     type.id = std::move(id);
@@ -64,9 +64,9 @@ class Registrar {
     type.traits = std::move(traits);
     type.params = schema->specs();
     type.create = [schema](const ParamSet& values, const PluginMaker& make) -> std::shared_ptr<void> {
-      const Params params = schema->bind(values, make);
+      const Parameters params = schema->bind(values, make);
       std::shared_ptr<Interface> object;
-      if constexpr (std::is_constructible_v<Impl, const Params&>)
+      if constexpr (std::is_constructible_v<Impl, const Parameters&>)
         object = std::make_shared<Impl>(params);
       else
         object = std::make_shared<Impl>();

@@ -84,8 +84,8 @@ struct MotionCheck {
 /// A part inside a void of another part is outside its material.
 ///
 /// A pair with an open part has another law, which needs no inside: at every instant one copy of one of the two parts,
-/// displaced by no more than the initial overlap plus max_penetration anywhere, meets no triangle of the other, and it is
-/// the same copy all the time. So no point is behind a wall by more than that, measured along the path from its own
+/// displaced by no more than the initial overlap plus max_penetration anywhere, meets no triangle of the other, and it
+/// is the same copy all the time. So no point is behind a wall by more than that, measured along the path from its own
 /// side. At rest, before and after the motion, the own side of a sheet is that to which the shortest displacement takes
 /// it off the other part. The initial overlap of such a pair is the smallest displacement that suffices when assembled;
 /// it has no region.
@@ -116,7 +116,7 @@ class DISMANTLE_API Verifier {
                            const RunContext& context) const;
   /// Rule (b) for one part past another, for callers with many such questions. True is proved, as by check_motion().
   /// False means refused, or not proved with VerifyBudget::trial_share of the budget.
-  bool passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& way) const;
+  bool passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& poses) const;
   /// Rule (c): the hulls of all original vertices of `group` and of `rest` are disjoint.
   bool apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const;
   const VerifyOptions& options() const;

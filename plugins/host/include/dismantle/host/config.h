@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "dismantle/engine/run.h"
 #include "dismantle/engine/layout.h"
 #include "dismantle/engine/proof_options.h"
+#include "dismantle/engine/run.h"
 #include "dismantle/export.h"
 #include "dismantle/host/config_node.h"
 #include "dismantle/host/registry.h"
@@ -32,7 +32,7 @@ struct RunSettings {
   double timeout = 7200;        ///< seconds for the whole run, 0 = none
   ForceWhen force = ForceWhen::last_resort;
   bool best_order = true;  ///< a planner that does not follow the objective by `best_order` is put into one
-  double grace = 30;  ///< seconds that plugins have for stopping after a request to stop, 0 = no limit
+  double grace = 30;       ///< seconds that plugins have for stopping after a request to stop, 0 = no limit
   DISMANTLE_API static void describe(Schema<RunSettings>& s);
 };
 
@@ -76,15 +76,15 @@ DISMANTLE_API Constraints constraints_of(const NamedConstraints& named, const As
 
 /// What the user states of parts: an entry of the section `parts:`. Empty members are not stated.
 struct StatedPart {
-  std::string pattern;              ///< of names of parts: '*' stands for any text, '?' for one character
-  std::string kind{}, size{};       ///< see PartKind; `size` of a screw without its length
-  std::optional<double> length{};   ///< mm, > 0
-  std::optional<double> torque{};   ///< N m, > 0
+  std::string pattern;             ///< of names of parts: '*' stands for any text, '?' for one character
+  std::string kind{}, size{};      ///< see PartKind; `size` of a screw without its length
+  std::optional<double> length{};  ///< mm, > 0
+  std::optional<double> torque{};  ///< N m, > 0
   std::string glue{};
-  Diagnostic place{};               ///< without a message
+  Diagnostic place{};  ///< without a message
 };
-/// Sets Part::kind of the parts that the patterns match; later entries win. Call it after the kinds were recognised: what
-/// is not stated stays. @throws ConfigError with every pattern that matches no part, and its place.
+/// Sets Part::kind of the parts that the patterns match; later entries win. Call it after the kinds were recognised:
+/// what is not stated stays. @throws ConfigError with every pattern that matches no part, and its place.
 DISMANTLE_API void state_kinds(const std::vector<StatedPart>& stated, Assembly& assembly);
 
 /// A name in the `constraints:` or `components:` section and its place.
@@ -110,8 +110,8 @@ struct RunConfig {
   std::vector<ConstraintName> constraint_names;  ///< in reading order
   ComponentChoice components;
   std::vector<ConstraintName> component_names;  ///< in reading order
-  std::vector<StatedPart> parts{};               ///< in reading order
-  std::map<std::string, ParamSet> importers;     ///< complete parameters by id; only importers with parameters
+  std::vector<StatedPart> parts{};              ///< in reading order
+  std::map<std::string, ParamSet> importers;    ///< complete parameters by id; only importers with parameters
   std::vector<std::filesystem::path> plugin_search_paths;  ///< relative to the working directory, not to the file
 
   /// The untyped values of fixed_sections() and `immobility`; complete except for `layout.poses` and
@@ -152,7 +152,7 @@ DISMANTLE_API void check_component_names(const RunConfig& config, const std::vec
                                          const std::string& input);
 
 /// The parameters in `config.importers` that differ from the defaults.
-DISMANTLE_API ImportParams import_params_of(const RunConfig& config, const Registry& registry);
+DISMANTLE_API ImportParameters import_params_of(const RunConfig& config, const Registry& registry);
 
 /// The configuration as a file that gives the same RunConfig when it is loaded again. Comments state the origin of
 /// every value, and version and hash of the plugins. `folder`: folder of the file to write; search paths are relative
@@ -173,7 +173,8 @@ struct PluginSection {
   std::string doc{};                 ///< of the list
   std::vector<ParamSpec> options{};  ///< keys of each item of the list, beside the parameters of its type
   std::vector<ParamSpec> beside{};   ///< keys of the section beside the list
-  std::vector<ParamSet> default_options{};  ///< by id of `defaults`: what its item says beside parameters; empty: nothing
+  std::vector<ParamSet>
+      default_options{};  ///< by id of `defaults`: what its item says beside parameters; empty: nothing
   /// "path_planner", "immobility.provers".
   std::string key() const { return list.empty() ? name : name + "." + list; }
 };

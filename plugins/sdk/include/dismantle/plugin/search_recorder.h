@@ -22,7 +22,7 @@ class SearchListener {
   /// numbered from 0. `poses`: of the moving parts. `effort`: SearchStats::cost so far. `way`: how far the centre of a
   /// moving part is from where it was, assembly units.
   virtual void node(std::size_t search, std::ptrdiff_t parent, const std::vector<Pose>& poses, double effort,
-                    double way) = 0;
+                    double distance) = 0;
 };
 
 /// A RunContext::on_log that also carries a listener.
@@ -46,8 +46,8 @@ class SearchRecord {
   /// False: there is no listener, node() does nothing, and its arguments need not be computed.
   bool listens() const { return listener_ != nullptr; }
   /// As SearchListener::node(): nodes are numbered from 0, in the order of these calls.
-  void node(std::ptrdiff_t parent, const std::vector<Pose>& poses, double effort, double way) {
-    if (listens()) listener_->node(search_, parent, poses, effort, way);
+  void node(std::ptrdiff_t parent, const std::vector<Pose>& poses, double effort, double distance) {
+    if (listens()) listener_->node(search_, parent, poses, effort, distance);
   }
   /// The search forgets its nodes and begins anew.
   void restart() {

@@ -98,21 +98,22 @@ class Physics final : public Simulator {
 };
 
 /// A straight path of two instants with displacement `way`.
-inline Path straight(const Scene& scene, const Eigen::Vector3d& way) {
+inline Path straight(const Scene& scene, const Eigen::Vector3d& displacement) {
   Path path(2);
   for (const auto& p : scene.moving) {
     path[0].push_back(p.pose);
-    path[1].push_back(Pose{p.pose.t + way, p.pose.q});
+    path[1].push_back(Pose{p.pose.t + displacement, p.pose.q});
   }
   return path;
 }
 
 /// Pushes along the axes in random order, in two directions per unit of depth.
 inline PathResult push(const PathQuery& query, RunContext& context) {
-  std::vector<Eigen::Vector3d> ways;
+  std::vector<Eigen::Vector3d> displacements;
   for (int axis = 0; axis < 3; ++axis)
-    for (const double sign : {1.0, -1.0}) ways.push_back(sign * 30 * Eigen::Vector3d::Unit(axis));
-  for (std::size_t n = ways.size(); n > 1; --n) std::swap(ways[n - 1], ways[context.rng.below(n)]);
+    for (const double sign : {1.0, -1.0}) displacements.push_back(sign * 30 * Eigen::Vector3d::Unit(axis));
+  for (std::size_t n = displacements.size(); n > 1; --n)
+    std::swap(displacements[n - 1], displacements[context.rng.below(n)]);
   const unsigned depth = query.budget.max_depth;
   const std::size_t allowed = depth == 0 || depth > 3 ? 6 : 2 * depth;
   PathResult result = PathResult::failure(allowed < 6 ? Outcome::depth_limit : Outcome::exhausted);
@@ -121,7 +122,7 @@ inline PathResult push(const PathQuery& query, RunContext& context) {
       result.fail(Outcome::cancelled);
       return result;
     }
-    PathCheck check = query.checker.check(straight(query.scene, ways[i]));
+    PathCheck check = query.checker.check(straight(query.scene, displacements[i]));
     result.stats.extra["checked"] += 1;
     if (check.accepted()) {
       result.solve(std::move(*check.verified), 1);

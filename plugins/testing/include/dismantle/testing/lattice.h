@@ -97,10 +97,11 @@ struct Lattice {
   std::optional<std::pair<unsigned, unsigned>> fewest_steps(PartId target) const {
     std::vector<std::array<unsigned, 6>> in_the_way(parts, std::array<unsigned, 6>{});  // sets of parts
     for (PartId id = 0; id < parts; ++id)
-      for (int way = 0; way < 6; ++way)
+      for (int d = 0; d < 6; ++d)
         for (PartId other = 0; other < parts; ++other)
-          if (other != id && blocks(id, other, way / 2, way % 2 == 0 ? 1 : -1)) in_the_way[id][way] |= 1U << other;
-    std::map<std::pair<unsigned, int>, unsigned> layer{{{(1U << parts) - 1, -1}, 0}};  // present, last way: changes
+          if (other != id && blocks(id, other, d / 2, d % 2 == 0 ? 1 : -1)) in_the_way[id][d] |= 1U << other;
+    std::map<std::pair<unsigned, int>, unsigned> layer{
+        {{(1U << parts) - 1, -1}, 0}};  // present, last direction: changes
     for (unsigned steps = 0; !layer.empty(); ++steps) {
       std::map<std::pair<unsigned, int>, unsigned> next;
       std::optional<unsigned> changes;
@@ -109,10 +110,10 @@ struct Lattice {
         if ((present >> target & 1U) == 0 || std::popcount(present) == 1)
           changes = std::min(changes.value_or(so_far), so_far);
         for (PartId id = 0; id < parts; ++id)
-          for (int way = 0; (present >> id & 1U) != 0 && way < 6; ++way) {
-            if (contains(constraints.base, id) || (present & in_the_way[id][way]) != 0) continue;
-            const unsigned now = so_far + (last >= 0 && last != way ? 1 : 0);
-            const auto [entry, is_new] = next.try_emplace({present & ~(1U << id), way}, now);
+          for (int d = 0; (present >> id & 1U) != 0 && d < 6; ++d) {
+            if (contains(constraints.base, id) || (present & in_the_way[id][d]) != 0) continue;
+            const unsigned now = so_far + (last >= 0 && last != d ? 1 : 0);
+            const auto [entry, is_new] = next.try_emplace({present & ~(1U << id), d}, now);
             entry->second = std::min(entry->second, now);
           }
       }
