@@ -11,7 +11,7 @@
 namespace dismantle {
 
 /// One sentence without its full stop: a press fit, a snap, a round part that is too large for an opening, or how much
-/// material is in the way. Input units. `way`: of the part `deepest.part`.
+/// material is in the way. Input units. `path`: of the part `deepest.part`.
 std::string hindrance_text(const Assembly& assembly, const MotionDepth& deepest, const std::vector<Pose>& path,
                            const PlacedPart& other, double tolerance);
 

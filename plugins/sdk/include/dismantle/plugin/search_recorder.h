@@ -19,7 +19,7 @@ class SearchListener {
   /// A search begins; returns its number.
   virtual std::size_t begin(const PathQuery& query) = 0;
   /// A node of search `search`. `parent`: number of an earlier node of this search, or -1 for a root; nodes are
-  /// numbered from 0. `poses`: of the moving parts. `effort`: SearchStats::cost so far. `way`: how far the centre of a
+  /// numbered from 0. `poses`: of the moving parts. `effort`: SearchStats::cost so far. `distance`: how far the centre of a
   /// moving part is from where it was, assembly units.
   virtual void node(std::size_t search, std::ptrdiff_t parent, const std::vector<Pose>& poses, double effort,
                     double distance) = 0;

@@ -97,7 +97,7 @@ class Physics final : public Simulator {
   std::function<void(RunContext&)> on_prepare;
 };
 
-/// A straight path of two instants with displacement `way`.
+/// A straight path of two instants with displacement `displacement`.
 inline Path straight(const Scene& scene, const Eigen::Vector3d& displacement) {
   Path path(2);
   for (const auto& p : scene.moving) {
