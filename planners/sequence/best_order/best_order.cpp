@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "best_order/around_largest.h"
 #include "best_order/rewrite.h"
 #include "dismantle/part_set.h"
 
@@ -104,8 +105,10 @@ class Rewriting {
     if (steps * steps * static_cast<double>(scene_.ups.size()) > params.effort) keep_best_up();
   }
 
-  void run(SequenceResult& result) {
-    const double before = order::cost_of(plan_, query_, context_);
+  /// `kept`: what the plan that is kept so far costs, if that is not this one.
+  void run(SequenceResult& result, std::optional<double> kept = std::nullopt) {
+    const double before = kept ? *kept : order::cost_of(plan_, query_, context_);
+    any_order_ = kept.has_value();
     std::vector<Block> blocks = order::blocks_of(plan_, scene_);
     constexpr int kRounds = 4;  // a refusal of the verifier is known in the next one
     // The search estimates what the checks say. Two searches of different width give two orders, and the checks choose.
@@ -121,8 +124,22 @@ class Rewriting {
       if (complete_ || context_.should_stop()) break;
     }
     bound_ = bound;
+    if (kept && !(after_ < kForbidden)) return;
     if (bounded_) result.least_cost = std::min(bound_, after_ < kForbidden ? after_ : before);
     count(result, before);
+  }
+
+  /// Of the plan that is kept now.
+  double kept_cost() const {
+    std::vector<Removal> plan;
+    for (const auto& [removal, left] : keeper_.all) plan.push_back(removal);
+    return order::cost_of(plan, query_, context_);
+  }
+  /// The plan that is kept now, around its largest part; empty: there is none.
+  std::vector<Removal> around_largest() {
+    std::vector<Removal> plan;
+    for (const auto& [removal, left] : keeper_.all) plan.push_back(removal);
+    return order::around_largest(plan, scene_);
   }
 
   /// The same for the steps to a target. `solved`: those of the plan take it out.
@@ -149,8 +166,8 @@ class Rewriting {
 
  private:
   void count(SequenceResult& result, double before) const {
-    result.counts["order_effort"] = static_cast<double>(spent_);
-    result.counts["order_saved"] = before < kForbidden && after_ < kForbidden ? before - after_ : 0;
+    result.counts["order_effort"] += static_cast<double>(spent_);
+    result.counts["order_saved"] += before < kForbidden && after_ < kForbidden ? before - after_ : 0;
   }
 
   /// Too many steps to try each in each orientation: as drawn, and the one in which the first plan is best all along.
@@ -196,7 +213,7 @@ class Rewriting {
   std::vector<Step> search(std::vector<Block>& blocks, const Effort& effort) {
     std::vector<Step> steps;
     bound_ = 0;
-    worth_it_ = false;
+    worth_it_ = any_order_;
     std::size_t segments = 0;
     for (const Block& block : blocks) segments += block.segment ? 1 : 0;
     for (Block& block : blocks) {
@@ -280,7 +297,22 @@ class Rewriting {
   std::uint64_t spent_ = 0;
   double bound_ = 0, after_ = kForbidden;
   bool bounded_ = true, worth_it_ = false, complete_ = false;
+  bool any_order_ = false;  // also that of plan_ is worth recording
 };
+
+/// The order of the plan; then that of the plan around its largest part, if this costs less.
+void improve(const BestOrderParameters& params, Rewriting& rewriting, const SequenceQuery& query, PathOracle& oracle,
+             Keeper& keeper, RunContext& context, SequenceResult& result) {
+  rewriting.run(result);
+  if (context.should_stop() || params.effort == 0) return;
+  const double kept = rewriting.kept_cost();
+  if (!(kept > kSame)) return;
+  std::vector<Removal> other = rewriting.around_largest();
+  if (other.empty()) return;
+  BestOrderParameters half = params;
+  half.effort /= 2;
+  Rewriting(half, query, oracle, keeper, context, std::move(other)).run(result, kept);
+}
 
 }  // namespace
 
@@ -312,7 +344,7 @@ SequenceResult BestOrder::plan(const SequenceQuery& query, PathOracle& oracle, S
     if (to_target)
       rewriting.run_to_target(result, is_success(result.outcome));
     else
-      rewriting.run(result);
+      improve(params_, rewriting, query, oracle, keeper, context, result);
   } catch (const CheckFailed& e) {
     context.log(LogLevel::error, std::string("the order is not improved, a step check failed: ") + e.what());
   }

@@ -11,19 +11,18 @@ namespace dismantle::order {
 
 namespace {
 
-/// Does the step take parts out of their group for good, without force?
-bool is_plain(const Removal& removal) {
-  const AttemptResult& answer = *removal.attempt;
-  return !answer.forced && !answer.out && !answer.attempt.goal.placement && answer.attempt.goal.any_of.empty() &&
-         answer.path().size() > 1;
-}
-
 bool same_places(const std::vector<PlacedPart>& a, const std::vector<PlacedPart>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const PlacedPart& x, const PlacedPart& y) { return x.part == y.part && x.pose == y.pose; });
 }
 
 }  // namespace
+
+bool is_plain(const Removal& removal) {
+  const AttemptResult& answer = *removal.attempt;
+  return !answer.forced && !answer.out && !answer.attempt.goal.placement && answer.attempt.goal.any_of.empty() &&
+         answer.path().size() > 1;
+}
 
 std::vector<Block> blocks_of(const std::vector<Removal>& plan, OrderScene& scene) {
   Disassembly done(scene.query.assembly.parts.size(), scene.query.start);
@@ -129,6 +128,40 @@ double estimate_of(const std::vector<Removal>& plan, const SequenceQuery& query,
   });
 }
 
+namespace {
+
+/// Continues the path along `out` (unit) until the parts are apart from what stays.
+void go_on(const Attempt& attempt, const Eigen::Vector3d& out, const OrderScene& scene, Path& path) {
+  std::vector<PlacedPart> at_end = attempt.moving;
+  for (std::size_t i = 0; i < at_end.size(); ++i) at_end[i].pose = path.back()[i];
+  double most = 0;
+  for (const auto* list : {&attempt.moving, &attempt.fixed})
+    for (const PlacedPart& p : *list) most += scene.query.assembly.parts[p.part].mesh->box().size().norm();
+  for (const PlacedPart& p : attempt.fixed) most = std::max(most, 2 * (p.pose.t - at_end.front().pose.t).norm());
+  const double length = scene.sweep->distance_apart(at_end, attempt.fixed, out, most);
+  if (length <= 0 && path.size() > 1) return;
+  path.emplace_back();
+  for (const PlacedPart& p : at_end)
+    path.back().push_back({p.pose.t + (length + scene.sweep->tolerance()) * out, p.pose.q});
+}
+
+}  // namespace
+
+Removal straight_out(std::vector<PartId> parts, std::size_t direction, const std::optional<Eigen::Vector3d>& up,
+                     const Disassembly& now, OrderScene& scene) {
+  const Attempt attempt{now.placed(parts), now.placed(without(now.groups()[now.group(parts.front())], parts))};
+  Path path(1);
+  for (const PlacedPart& p : attempt.moving) path.front().push_back(p.pose);
+  go_on(attempt, scene.directions.all[direction], scene, path);
+  const AttemptResult& answer = scene.oracle.propose(attempt, path, scene.context);
+  if (!is_success(answer.result.outcome())) return {};
+  Removal removal;
+  removal.parts = std::move(parts);
+  removal.attempt = &answer;
+  removal.up = up;
+  return removal;
+}
+
 Removal verified(const Step& step, const Disassembly& now, OrderScene& scene, std::vector<PartId>& blocked_by) {
   const Motion* motion = step.segment == nullptr ? nullptr : &step.segment->motion(step.variant);
   const Removal* planned = motion == nullptr ? step.planned : motion->planned;
@@ -163,20 +196,7 @@ Removal verified(const Step& step, const Disassembly& now, OrderScene& scene, st
     for (std::size_t i = 0; i < attempt.moving.size(); ++i) path.front()[i] = attempt.moving[i].pose;
     out = motion == nullptr ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Eigen::Vector3d(shift.q * -motion->insertion);
   }
-  if (scene.sweep != nullptr && !out.isZero()) {
-    std::vector<PlacedPart> at_end = attempt.moving;
-    for (std::size_t i = 0; i < at_end.size(); ++i) at_end[i].pose = path.back()[i];
-    double most = 0;
-    for (const auto* list : {&attempt.moving, &attempt.fixed})
-      for (const PlacedPart& p : *list) most += scene.query.assembly.parts[p.part].mesh->box().size().norm();
-    for (const PlacedPart& p : attempt.fixed) most = std::max(most, 2 * (p.pose.t - at_end.front().pose.t).norm());
-    const double length = scene.sweep->distance_apart(at_end, attempt.fixed, out, most);
-    if (length > 0 || path.size() < 2) {
-      path.emplace_back();
-      for (const PlacedPart& p : at_end)
-        path.back().push_back({p.pose.t + (length + scene.sweep->tolerance()) * out, p.pose.q});
-    }
-  }
+  if (scene.sweep != nullptr && !out.isZero()) go_on(attempt, out, scene, path);
   const AttemptResult& answer = scene.oracle.propose(attempt, path, scene.context);
   blocked_by = answer.result.blocked_by;
   if (!is_success(answer.result.outcome())) return {};

@@ -41,7 +41,14 @@ double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, con
 double estimate_of(const std::vector<Removal>& plan, const SequenceQuery& query, const Eigen::Vector3d& up,
                    const RunContext& context);
 
-/// A removal that the oracle has accepted, in the state `now`; for a refusal its parts are empty.
+/// Does the step take parts out of their group for good, without force?
+bool is_plain(const Removal& removal);
+
+/// A removal that the oracle has accepted, in the state `now`, along a straight line; for a refusal its parts are
+/// empty. `direction`: of OrderScene::directions.
+Removal straight_out(std::vector<PartId> parts, std::size_t direction, const std::optional<Eigen::Vector3d>& up,
+                     const Disassembly& now, OrderScene& scene);
+/// The same for a step that is known.
 Removal verified(const Step& step, const Disassembly& now, OrderScene& scene, std::vector<PartId>& blocked_by);
 
 }  // namespace dismantle::order

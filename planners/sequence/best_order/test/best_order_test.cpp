@@ -244,6 +244,29 @@ TEST(BestOrder, TurnsTheWholeWhereThatCostsLess) {
   EXPECT_EQ(*r.plan.objective.least_cost, 0);
 }
 
+/// As InTurn, in this order.
+class GivenOrder final : public SequencePlanner {
+ public:
+  explicit GivenOrder(std::vector<PartId> order) : order_(std::move(order)) {}
+  SequencePlannerTraits traits() const noexcept override { return {.keeps_constraints = true, .any_start = true}; }
+  SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
+                      RunContext& context) override {
+    SequenceResult result;
+    std::vector<PlacedPart> left = query.start.front();
+    for (const PartId id : order_) {
+      const auto at = std::find_if(left.begin(), left.end(), [&](const PlacedPart& p) { return p.part == id; });
+      result.removals.push_back({{id}, &oracle.attempt(fake::InTurn::question(left, *at), context)});
+      left.erase(at);
+      observer.removed(result.removals.back(), left.size());
+    }
+    result.outcome = Outcome::solved;
+    return result;
+  }
+
+ private:
+  std::vector<PartId> order_;
+};
+
 TEST(BestOrder, KeepsConstraints) {
   const Assembly assembly = fake::row(5);
   Prices prices;
@@ -251,24 +274,8 @@ TEST(BestOrder, KeepsConstraints) {
   RunOptions options;
   options.constraints.base = {2};
   options.constraints.before = {{4, 0}, {3, 1}};
-  class Keeps final : public SequencePlanner {  // as InTurn, from the last part to the first
-   public:
-    SequencePlannerTraits traits() const noexcept override { return {.keeps_constraints = true, .any_start = true}; }
-    SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
-                        RunContext& context) override {
-      SequenceResult result;
-      std::vector<PlacedPart> left = query.start.front();
-      for (const PartId id : {4, 3, 1, 0}) {
-        const auto at = std::find_if(left.begin(), left.end(), [&](const PlacedPart& p) { return p.part == id; });
-        result.removals.push_back({{id}, &oracle.attempt(fake::InTurn::question(left, *at), context)});
-        left.erase(at);
-        observer.removed(result.removals.back(), left.size());
-      }
-      result.outcome = Outcome::solved;
-      return result;
-    }
-  };
-  const RunResult r = plan_of(assembly, priced(prices), std::make_shared<Keeps>(), 1e5, options);
+  const RunResult r =
+      plan_of(assembly, priced(prices), std::make_shared<GivenOrder>(std::vector<PartId>{4, 3, 1, 0}), 1e5, options);
   ASSERT_EQ(r.plan.status, PlanStatus::complete);
   std::map<std::string, std::size_t> place;
   for (const PlanStep& step : r.plan.disassembly) place[step.moves.front().part] = place.size();
@@ -276,6 +283,69 @@ TEST(BestOrder, KeepsConstraints) {
   EXPECT_FALSE(place.contains("block2"));
   EXPECT_LT(place["block4"], place["block0"]);
   EXPECT_LT(place["block3"], place["block1"]);
+}
+
+/// It costs when the part moves.
+class Stays final : public StepCheck {
+ public:
+  explicit Stays(PartId part) : part_(part) {}
+  StepCheckTraits traits() const noexcept override { return {.reads_present = false, .reads_path = false}; }
+  StepVerdict judge(const StepQuestion& q, const RunContext&) const override {
+    StepVerdict verdict;
+    verdict.cost = std::any_of(q.moving.begin(), q.moving.end(), [&](const PlacedPart& p) { return p.part == part_; });
+    return verdict;
+  }
+
+ private:
+  PartId part_;
+};
+
+/// A tray, a filler in it, and a clamp that holds a pin: the pin leaves the clamp only sideways, where the filler is.
+Assembly tray() {
+  return fake::assembly_of(
+      {{"tray",
+        {{{0, 0, 0}, {10, 6, 1}},
+         {{0, 0, 1}, {1, 6, 4}},
+         {{9, 0, 1}, {10, 6, 4}},
+         {{1, 0, 1}, {9, 1, 4}},
+         {{1, 5, 1}, {9, 6, 4}}}},
+       {"clamp", {{{1.2, 1.2, 1.2}, {1.8, 4.8, 3.9}}, {{1.8, 1.2, 1.2}, {4, 4.8, 2}}, {{1.8, 1.2, 3}, {4, 4.8, 3.9}}}},
+       {"pin", {{{2, 1.4, 2.1}, {4, 4.6, 2.9}}}},
+       {"filler", {{{4.3, 1.2, 1.2}, {8.8, 4.8, 3.9}}}}});
+}
+
+TEST(BestOrder, BuildsAroundTheLargestPartWhereThatCostsLess) {
+  const Assembly assembly = tray();
+  const auto inner = std::make_shared<GivenOrder>(std::vector<PartId>{0, 3, 2});  // the tray is put over the rest
+  const RunResult r = plan_of(assembly, {{{"stays", std::make_shared<Stays>(0), 1, false}}}, inner, 1e5);
+  ASSERT_EQ(r.plan.status, PlanStatus::complete);
+  EXPECT_EQ(r.plan.objective.cost, 0);
+  ASSERT_EQ(r.plan.disassembly.size(), 3u);
+  std::vector<std::size_t> sizes;
+  for (const PlanStep& step : r.plan.disassembly) sizes.push_back(step.moves.size());
+  EXPECT_EQ(sizes, (std::vector<std::size_t>{1, 2, 1})) << "clamp and pin are a sub-assembly";
+  EXPECT_GT(r.sequence_counts.at("order_saved"), 0);
+}
+
+TEST(BestOrder, DoesNotBuildAroundTheLargestPartWhereThatCostsMore) {
+  const Assembly assembly = tray();
+  const auto inner = std::make_shared<GivenOrder>(std::vector<PartId>{0, 3, 2});
+  const RunResult r = plan_of(assembly, {{{"stays", std::make_shared<Stays>(1), 1, false}}}, inner, 1e5);
+  ASSERT_EQ(r.plan.status, PlanStatus::complete);
+  EXPECT_EQ(r.plan.objective.cost, 0);
+  const auto moves_tray = [](const PlanStep& step) { return step.moves.front().part == "tray"; };
+  EXPECT_EQ(std::count_if(r.plan.disassembly.begin(), r.plan.disassembly.end(), moves_tray), 1);
+}
+
+TEST(BestOrder, DoesNotMoveWhatTheBaseHolds) {
+  const Assembly assembly = tray();
+  RunOptions options;
+  options.constraints.base = {1};
+  const auto inner = std::make_shared<GivenOrder>(std::vector<PartId>{0, 3, 2});
+  const RunResult r = plan_of(assembly, {{{"stays", std::make_shared<Stays>(0), 1, false}}}, inner, 1e5, options);
+  ASSERT_EQ(r.plan.status, PlanStatus::complete);
+  for (const PlanStep& step : r.plan.disassembly)
+    for (const PlanMove& move : step.moves) EXPECT_NE(move.part, "clamp");
 }
 
 }  // namespace
