@@ -174,7 +174,7 @@ function(dismantle_add_test name)
     add_dependencies(sanitized_tests ${name})
   endif()
   add_test(NAME ${name} COMMAND ${name} ${filter})
-  set(limit 900)  # s, against hanging tests; sanitizers slow tests down up to twenty times
+  set(limit 2400)  # s, against hanging tests also on a slow machine; sanitizers slow tests down up to twenty times
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
     set(limit 7200)
   endif()
