@@ -61,7 +61,7 @@ void Run::make_strategies() {
     list_.add(std::make_unique<SimultaneousMotion>(state_, oracle_, *straight_, *lookahead_, history_, *snaps_, params_,
                                                    params_.max_depth, params_.play * oracle_.tolerance()));
   list_.add(std::make_unique<PathSearch>(state_, history_, *searcher_, params_));
-  list_.add(std::make_unique<PairSearch>(state_, history_, *searcher_, *lookahead_, params_));
+  list_.add(std::make_unique<PairSearch>(state_, history_, *searcher_, *lookahead_, *snaps_, params_));
   list_.add(std::make_unique<PostponedSearch>(state_, history_, *searcher_, params_));
 }
 

@@ -48,6 +48,12 @@ bool SnapFits::has_evidence(const GroupState& group) {
                      [&](SubassemblyId id) { return searched(id) || !holding(group, id); });
 }
 
+unsigned SnapFits::depth_of_few(const GroupState& group) {
+  const bool held = std::any_of(group.members.begin(), group.members.end(),
+                                [&](SubassemblyId id) { return holding(group, id).has_value(); });
+  return held ? params_.snap_depth_of_few : 0;
+}
+
 bool SnapFits::holds_all(const GroupState& group) {
   if (group.members.size() > params_.snap_group) return false;
   std::size_t others = 0;

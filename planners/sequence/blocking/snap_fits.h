@@ -37,6 +37,8 @@ class SnapFits {
   }
   /// Are all parts of the group held so, but for one at most? Then it is no puzzle of translations.
   bool holds_all(const GroupState& group);
+  /// Depth to which a group is searched before the snap fits that hold it are left to forced steps; 0: none holds it.
+  unsigned depth_of_few(const GroupState& group);
   /// Records a search: what searches of at least `snap_depth` for parts that are held so find, decides for the others.
   void searched(const GroupState& group, SubassemblyId id, unsigned depth, bool found);
 

@@ -15,12 +15,19 @@ Result PairSearch::apply(GroupState& group) {
   return Result::defer;
 }
 
+/// A pair that a snap fit holds is searched for to the depth of few first: if that finds nothing, it is left to forced
+/// steps.
+unsigned PairSearch::next_depth(const GroupState& group) {
+  if (group.proof != nullptr) return history_.max_depth(group);
+  const unsigned depth = history_.next_depth_of_pair(group, lookahead_.other_pairs_wait());
+  const unsigned of_few = snaps_.depth_of_few(group);
+  return group.pair_depth < of_few && (depth == 0 || depth > of_few) ? of_few : depth;
+}
+
 /// True: the pair was separated.
 bool PairSearch::search(GroupState& group) {
-  const bool proved = group.proof != nullptr;
-  const unsigned depth =
-      proved ? history_.max_depth(group) : history_.next_depth_of_pair(group, lookahead_.other_pairs_wait());
-  const bool last = depth == 0 || proved;
+  const unsigned depth = next_depth(group);
+  const bool last = depth == 0 || group.proof != nullptr;
   if (depth != 0) group.pair_depth = depth;
   const Subassemblies candidates = searcher_.candidates(group);
   Subassemblies open;

@@ -32,11 +32,13 @@ Assembly clipped(double lip, bool with_box = true) {
   return shapes::assembly_of(parts);
 }
 
+constexpr unsigned kNoLimit = 1000;  // stands for a search without a limit of its depth
+
 /// Deepest search for each part.
 std::map<PartId, unsigned> deepest_searches(const Assembly& assembly, ForceWhen force) {
   std::map<PartId, unsigned> deepest;
   const auto search = [&](const PathQuery& query, RunContext& context) {
-    const unsigned depth = query.budget.max_depth == 0 ? 1000 : query.budget.max_depth;
+    const unsigned depth = query.budget.max_depth == 0 ? kNoLimit : query.budget.max_depth;
     unsigned& most = deepest[query.scene.moving.front().part];
     most = std::max(most, depth);
     return fake::shallow(query, context);
@@ -76,8 +78,9 @@ TEST(SnapFits, AFewDeepSearchesDecideForTheOthersIfPartsMayBeForced) {
   }
 }
 
-TEST(SnapFits, FewPartsAreSearchedForDeeply) {
-  EXPECT_GT(most_of(deepest_searches(clipped(0.1), ForceWhen::last_resort)), 1u);
+TEST(SnapFits, APairIsSearchedForToTheDepthOfFew) {
+  EXPECT_EQ(most_of(deepest_searches(clipped(0.1), ForceWhen::last_resort)), BlockingParameters{}.snap_depth_of_few);
+  EXPECT_EQ(most_of(deepest_searches(clipped(0.1), ForceWhen::off)), kNoLimit);
 }
 
 TEST(SnapFits, HoldAlsoWhatIsFreeWithoutThem) {
@@ -96,10 +99,10 @@ TEST(SnapFits, HoldAlsoWhatIsFreeWithoutThem) {
   EXPECT_GT(searched_deeply(deepest_searches(made, ForceWhen::off)), 4u);
 }
 
-TEST(SnapFits, AreNoDeepCuts) { EXPECT_GT(most_of(deepest_searches(clipped(0.8), ForceWhen::last_resort)), 1u); }
+TEST(SnapFits, AreNoDeepCuts) { EXPECT_EQ(most_of(deepest_searches(clipped(0.8), ForceWhen::last_resort)), kNoLimit); }
 
 TEST(SnapFits, FewPartsThatAreAllSearchedForAreLeftToForcedSteps) {
-  // Two blocks in one part that is a case for both. (The search for a pair has no such limit.)
+  // Two blocks in one part that is a case for both.
   const Pose beside{{4, 0, 0}, Eigen::Quaterniond::Identity()};
   const Assembly made =
       shapes::assembly_of({shapes::joined(case_with_lip(0.1), shapes::moved(case_with_lip(0.1), beside)), block(),
@@ -109,7 +112,7 @@ TEST(SnapFits, FewPartsThatAreAllSearchedForAreLeftToForcedSteps) {
 }
 
 TEST(SnapFits, DoNotCountInAnAssemblyOfTwoParts) {
-  EXPECT_GT(most_of(deepest_searches(clipped(0.1, false), ForceWhen::last_resort)), 1u);
+  EXPECT_EQ(most_of(deepest_searches(clipped(0.1, false), ForceWhen::last_resort)), kNoLimit);
 }
 
 }  // namespace
