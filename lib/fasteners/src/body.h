@@ -73,6 +73,9 @@ std::optional<Shape> screw_of(const Body& body);
 std::optional<Shape> nut_of(const Body& body);
 std::optional<Shape> ring_of(const Body& body);  ///< washer, spacer, bearing, gear, pulley, wheel
 std::optional<Shape> bar_of(const Body& body);   ///< pin, shaft
+/// Of parts whose kind is known.
+std::optional<Shape> screw_form(const Body& body);
+std::optional<Shape> nut_form(const Body& body);
 std::optional<Shape> slot_nut_of(const Mesh& mesh, double mm);
 std::optional<Shape> flat_of(const Mesh& mesh, double mm);    ///< plate, rail
 std::optional<Shape> strand_of(const Mesh& mesh, double mm);  ///< spring, ring, belt

@@ -138,6 +138,11 @@ std::vector<Shape> shapes_of(const Assembly& assembly, const RunContext& context
     out.push_back(std::move(shape));
   }
   join_lock_nuts(assembly, out);
+  for (const Part& part : assembly.parts) {
+    const auto kind = part.kind && !part.open ? kind_from_string(part.kind->kind) : std::nullopt;
+    if (!kind || *kind == out[part.id].kind) continue;
+    if (auto as_stated = shape_as(*kind, *part.mesh, mm)) out[part.id] = std::move(*as_stated);
+  }
   return out;
 }
 

@@ -170,6 +170,19 @@ std::optional<Shape> nut_of(const Body& body) {
   return s;
 }
 
+std::optional<Shape> nut_form(const Body& body) {
+  const View view(body, false);
+  const Profile p = profile_of(view);
+  const std::size_t n = view.size(), middle = n - 2 * (n / 10);
+  // A round one is the ring in a lock nut, or turned by hand.
+  if (p.through < n * 9 / 10 || !(p.hole > 0) || p.round > middle / 2) return std::nullopt;
+  if (outline_of(view[n / 2].inner).ratio() > 1.12) return std::nullopt;  // its hole is not about its axis
+  Shape s = placed(view, p.outer, p.hole);
+  s.kind = Kind::nut;
+  s.reason = "hole of no known size";
+  return s;
+}
+
 std::optional<Shape> ring_of(const Body& body) {
   const View view(body, false);
   const Profile p = profile_of(view);

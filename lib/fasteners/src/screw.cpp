@@ -176,6 +176,20 @@ std::optional<Shape> screw_of(const Body& body) {
   return best;
 }
 
+std::optional<Shape> screw_form(const Body& body) {
+  std::optional<Shape> best;
+  for (const bool flipped : {false, true}) {
+    const View view(body, flipped);
+    const auto split = split_of(view);
+    if (!split || split->head == 0) continue;  // without a head, either end may be the tip
+    if (best && best->shank_radius <= split->shank) continue;
+    best = shape_of(view, *split);
+    best->kind = Kind::screw;
+    best->reason = "head and shank of no known size";
+  }
+  return best;
+}
+
 std::optional<Shape> bar_of(const Body& body) {
   const View view(body, false);
   double largest = 0;

@@ -99,5 +99,28 @@ TEST(RecogniseKinds, NoNamesMeansShapesAlone) {
   EXPECT_EQ(assembly.parts[0].kind->kind, "spacer");
 }
 
+// A bolt and a nut of no known size: what their names say they are gives their shapes an axis, a shank and a hole.
+TEST(RecogniseKinds, BoltsAndNutsByNameHaveAnAxis) {
+  std::mt19937_64 random(57);
+  for (const bool named : {true, false}) {
+    Assembly assembly;
+    assembly.parts.push_back(part_of(0, named ? "bolt" : "a", placed(screw({7.3, 30, 23, 17}), random, 1)));
+    assembly.parts.push_back(part_of(1, named ? "nut" : "b", placed(nut(polygon(4, 20), 7.3, 3), random, 1)));
+    assembly.parts.push_back(part_of(2, named ? "lock nut" : "c", placed(ring(20, 7.3, 3), random, 1)));
+    recognise_kinds(assembly, RunContext{});
+    const std::vector<Shape> shapes = shapes_of(assembly, RunContext{});
+    EXPECT_EQ(shapes[0].kind == Kind::screw, named);
+    EXPECT_EQ(shapes[1].kind == Kind::nut, named);
+    EXPECT_NE(shapes[2].kind, Kind::nut);  // a round one may be the ring of another nut
+    if (!named) continue;
+    EXPECT_NEAR(shapes[0].shank_radius, 3.65, 0.01);
+    EXPECT_NEAR(shapes[0].head_height, 17, 0.1);
+    // The first vertices of the solids are at the tip, on the axis, and at the lower side.
+    EXPECT_NEAR((shapes[0].top - assembly.parts[0].mesh->vertices[0]).dot(shapes[0].axis), 47, 1e-6);
+    EXPECT_NEAR(shapes[1].shank_radius, 3.65, 0.01);
+    EXPECT_NEAR(std::abs((shapes[1].top - assembly.parts[1].mesh->vertices[0]).dot(shapes[1].axis)), 1.5, 1.5 + 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace dismantle::fasteners

@@ -105,6 +105,11 @@ std::optional<Driven> FastenerMemo::look_at(const Part& part) const {
   if (!among(kind) || (part.open && !turned)) return std::nullopt;
   if (kind == Kind::pin || kind == Kind::bearing) return pressed_in(part, shape, said);
   Driven out;
+  if (turned && shape.kind != kind && !part.open)
+    if (auto form = fasteners::shape_as(kind, *part.mesh, mm_)) {
+      shape = std::move(*form);
+      out.by_name = true;
+    }
   out.part = part.id;
   out.size = said.size;
   tools::Fastener& f = out.fastener;
@@ -248,7 +253,8 @@ void FastenerMemo::find_fastenings() const {
       if (!f.nut) continue;
       for (const PartId part : f.into) {
         const Driven* nut = driven(part);
-        if (nut == nullptr || nut->fastener.kind != Kind::nut || nut->fastener.drive == Drive::none) continue;
+        if (nut == nullptr || nut->fastener.kind != Kind::nut) continue;
+        if (nut->fastener.drive == Drive::none && !nut->by_name) continue;  // it is in a slot
         if (!nut_of_[f.screw]) nut_of_[f.screw] = part;
         if (!screw_in_[part]) screw_in_[part] = f.screw;
       }
@@ -279,7 +285,9 @@ std::optional<PartId> FastenerMemo::nut_of(PartId screw) const {
 std::optional<PartId> FastenerMemo::kept_by(const Driven& driven, std::span<const PlacedPart> there,
                                             const Pose& at) const {
   const tools::Fastener& f = driven.fastener;
-  if (f.drive != Drive::outer_hex && f.drive != Drive::square) return std::nullopt;
+  const bool corners =
+      f.drive == Drive::outer_hex || f.drive == Drive::square || (f.kind == Kind::nut && driven.by_name);
+  if (!corners) return std::nullopt;
   const Eigen::Vector3d u = f.axis.unitOrthogonal(), v = f.axis.cross(u);
   constexpr int angles = 36;  // the corners go round on this circle
   const double radius = 0.985 * f.radius / mm_;

@@ -25,6 +25,7 @@ struct Driven {
   PartId part = 0;
   tools::Fastener fastener;  ///< as assembled
   std::string size;          ///< "M3x10"; empty: not known
+  bool by_name = false;      ///< its shape alone does not say that it is a screw or a nut
   std::string unknown{};     ///< why its axis is not known, for people; empty: it is
   bool either_side = false;  ///< the tool comes from either end of the axis
   double height = 0;         ///< mm, along the axis, of what the tool may come to from either end
@@ -69,7 +70,7 @@ class FastenerMemo {
   const fasteners::Pattern* pattern_of(PartId screw) const;
   /// The screw that is driven into this nut, or none.
   std::optional<PartId> screw_in(PartId nut) const;
-  /// The nut with a drive that this screw is driven into, or none.
+  /// The nut that this screw is driven into, or none: one that turns, not one in a slot.
   std::optional<PartId> nut_of(PartId screw) const;
   /// The part in which a nut, or a head with corners, cannot turn. `at`: `driven` is there.
   std::optional<PartId> kept_by(const Driven& driven, std::span<const PlacedPart> there, const Pose& at) const;

@@ -36,6 +36,8 @@ class Judge {
 
   StepVerdict verdict() {
     take_up_held();
+    if (q_.previous == nullptr)  // what there is before the first step was put in by none
+      for (const PlacedPart& part : q_.present) look_at_first(part);
     for (const PlacedPart& part : q_.moving)
       if (const Driven* driven = memo_.driven(part.part)) look_at(*driven, part.pose);
     verdict_.cost = unreached_ + early_ + kChange * changes_;
@@ -57,29 +59,13 @@ class Judge {
     data["part"] = name(driven);
     if (!driven.size.empty()) data["size"] = driven.size;
     if (is_turned(driven) && has_drive(driven)) data["drive"] = drive_text(driven.fastener);
-    add_fastening(driven, text, data);
+    add_fastening(memo_, driven, text, data);
     if (memo_.assembly().unit.empty()) {
       data["assumed"] = "mm";
       text += " (The input states no unit; mm is assumed.)";
     }
     verdict_.notes.push_back({fmt::format("tool_access.{}", kind), std::move(text), data.dump()});
   }
-  /// What the screw does, or the screw that a nut is on.
-  const fasteners::Fastening* fastening_about(const Driven& driven) const {
-    const std::optional<PartId> on = driven.fastener.kind == Kind::nut ? memo_.screw_in(driven.part) : driven.part;
-    return on ? memo_.fastening_of(*on) : nullptr;
-  }
-  void add_fastening(const Driven& driven, std::string& text, json& data) const {
-    const fasteners::Fastening* f = fastening_about(driven);
-    if (f == nullptr) return;
-    const std::string words = fasteners::fastening_text(memo_.assembly(), *f);
-    if (words.empty()) return;
-    text += fmt::format(" '{}' {}{}.", name(f->screw), words.starts_with("driven") ? "is " : "", words);
-    json& out = data["fastens"] = {{"screw", name(f->screw)}};
-    for (const auto& [key, parts] : {std::pair{"clamps", &f->clamps}, {"into", &f->into}, {"only", &f->only}})
-      for (const PartId part : *parts) out[key].push_back(name(part));
-  }
-
   void look_at(const Driven& driven, const Pose& pose) {
     const tools::Fastener& f = driven.fastener;
     std::optional<PartId> other;  // the nut of a screw, the screw of a nut
@@ -92,6 +78,7 @@ class Judge {
       if (!partner && is_in(part, q_.present)) partner = part;
     }
     if (other && is_in(*other, q_.moving)) return;
+    if (f.kind == Kind::nut && other && !is_in(*other, q_.present)) return look_at_early_nut(driven, *other, pose);
     if (!partner && f.kind != Kind::screw) return;
     if (!driven.unknown.empty()) return not_checked(driven, driven.unknown);
     // A nut that is put in across its axis goes into a trap and is not screwed on.
@@ -104,8 +91,9 @@ class Judge {
     const char* why = !has_drive(driven)  ? "its drive is not recognised"
                       : !has_size(driven) ? "its size is in no table"
                                           : nullptr;
-    if (why != nullptr) return not_checked(driven, why);
-    if (driven.pressed)
+    if (why != nullptr)
+      not_checked(driven, why);
+    else if (driven.pressed)
       report_pressed(driven, answer(driven, partner, {}, pose), *partner, pose);
     else
       report(driven, answer(driven, partner, other, pose), pose);
@@ -117,14 +105,27 @@ class Judge {
          {{"reason", why}});
   }
 
+  void add_early(StepNote note, std::string reason) {
+    ++early_;
+    if (verdict_.reason.empty()) verdict_.reason = std::move(reason);
+    verdict_.notes.push_back(std::move(note));
+  }
+  void look_at_first(const PlacedPart& part) {
+    const Driven* driven = memo_.driven(part.part);
+    if (driven == nullptr || driven->fastener.kind != Kind::nut) return;
+    const auto screw = memo_.screw_in(part.part);
+    if (screw && !is_in(*screw, q_.present)) look_at_early_nut(*driven, *screw, part.pose);
+  }
+  /// A nut without its screw stays where it is if it cannot turn there.
+  void look_at_early_nut(const Driven& nut, PartId screw, const Pose& pose) {
+    if (memo_.kept_by(nut, there_, pose)) return;
+    add_early(early_nut_note(memo_, nut.part, screw),
+              fmt::format("'{}' is put in before its screw '{}'", name(nut), name(screw)));
+  }
   /// What the order of the screws calls for.
   void look_at_order(PartId screw) {
-    if (auto note = early_note(memo_, there_, screw)) {
-      ++early_;
-      if (verdict_.reason.empty())
-        verdict_.reason = fmt::format("'{}' is tightened before what it clamps is there", name(screw));
-      verdict_.notes.push_back(std::move(*note));
-    }
+    if (auto note = early_note(memo_, there_, screw))
+      add_early(std::move(*note), fmt::format("'{}' is tightened before what it clamps is there", name(screw)));
     const fasteners::Pattern* pattern = memo_.pattern_of(screw);
     if (pattern == nullptr || std::find(said_.begin(), said_.end(), pattern) != said_.end()) return;
     said_.push_back(pattern);
@@ -292,16 +293,7 @@ class Judge {
   }
 
   json place_of(const Driven& driven, const Reach& found) const {
-    return {{"part", name(driven)},
-            {"tool", found.tool->id},
-            {"name", found.tool->name},
-            {"use", found.access.use->name},
-            {"at", json_of(found.at)},
-            {"from", json_of(found.axis)},
-            {"handle", json_of(found.access.handle)},
-            {"swing", found.access.use->swing},
-            {"picture", picture_of(*found.access.use, found.fastener, found.seat,
-                                   found.fastener.mm * memo_.assembly().normalization.scale, hand_)}};
+    return checks::place_of(memo_.assembly(), driven, found, hand_);
   }
 
   /// Where only facets overlap it may go in by hand: that costs nothing.
@@ -370,7 +362,7 @@ class Judge {
       data["left_out"] = other->id;
     }
     if (best.tool != nullptr && !turns)
-      add_advice({memo_, *a.task.turned, fastening_about(*a.task.turned), best, a.one_obstacle,
+      add_advice({memo_, *a.task.turned, fastening_about(memo_, *a.task.turned), best, a.one_obstacle,
                   without(a.task.turned->part), pose, hand_},
                  text, data);
     if (verdict_.reason.empty()) verdict_.reason = fmt::format("no tool {} '{}'", does, name(about));

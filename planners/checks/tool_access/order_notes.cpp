@@ -33,6 +33,15 @@ std::optional<StepNote> early_note(const FastenerMemo& memo, std::span<const Pla
                   nlohmann::json{{"screw", name}, {"missing", missing}}.dump()};
 }
 
+StepNote early_nut_note(const FastenerMemo& memo, PartId nut, PartId screw) {
+  const std::string &name = memo.assembly().parts[nut].name, &on = memo.assembly().parts[screw].name;
+  return StepNote{"tool_access.early",
+                  fmt::format("'{}' is put in too early: it is screwed onto '{}', which is not there yet, and nothing "
+                              "keeps it in its place.",
+                              name, on),
+                  nlohmann::json{{"nut", name}, {"missing", {on}}}.dump()};
+}
+
 std::optional<StepNote> pattern_note(const FastenerMemo& memo, std::span<const PlacedPart> present, PartId screw) {
   const fasteners::Pattern* pattern = memo.pattern_of(screw);
   if (pattern == nullptr) return std::nullopt;

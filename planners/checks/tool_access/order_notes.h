@@ -13,6 +13,9 @@ namespace dismantle::checks {
 /// The screw is tightened while a part that it clamps is not there; it has to be loosened again.
 std::optional<StepNote> early_note(const FastenerMemo& memo, std::span<const PlacedPart> there, PartId screw);
 
+/// The nut is put in although its screw is not there.
+StepNote early_nut_note(const FastenerMemo& memo, PartId nut, PartId screw);
+
 /// The screw is the first of its pattern that is tightened. `present`: the parts that were there before.
 std::optional<StepNote> pattern_note(const FastenerMemo& memo, std::span<const PlacedPart> present, PartId screw);
 

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "dismantle/tools/access.h"
+#include "reach.h"
+#include "tool_words.h"
 
 namespace dismantle::checks {
 
@@ -46,6 +48,20 @@ inline nlohmann::json picture_of(const tools::Use& use, const tools::Fastener& f
                      {"tool", json_of(tools::volumes_on(use.tool, use, fastener))}};
   if (hand && !use.hand.empty()) out["hand"] = json_of(tools::volumes_on(use.hand, use, fastener));
   return out;
+}
+
+/// Where a tool is, in the data of a note.
+inline nlohmann::json place_of(const Assembly& assembly, const Driven& driven, const Reach& found, bool hand) {
+  const double mm = found.fastener.mm * assembly.normalization.scale;
+  return {{"part", assembly.parts[driven.part].name},
+          {"tool", found.tool->id},
+          {"name", found.tool->name},
+          {"use", found.access.use->name},
+          {"at", json_of(found.at)},
+          {"from", json_of(found.axis)},
+          {"handle", json_of(found.access.handle)},
+          {"swing", found.access.use->swing},
+          {"picture", picture_of(*found.access.use, found.fastener, found.seat, mm, hand)}};
 }
 
 }  // namespace dismantle::checks

@@ -50,6 +50,26 @@ inline std::string use_text(const tools::Tool& tool, const tools::Use& use) {
   return use.name.empty() ? tool.name : fmt::format("{}, {}", tool.name, use.name);
 }
 
+/// What the screw does, or the screw that a nut is on; null: nothing is known.
+inline const fasteners::Fastening* fastening_about(const FastenerMemo& memo, const Driven& driven) {
+  const bool nut = driven.fastener.kind == fasteners::Kind::nut;
+  const std::optional<PartId> screw = nut ? memo.screw_in(driven.part) : driven.part;
+  return screw ? memo.fastening_of(*screw) : nullptr;
+}
+
+/// Adds that to a note.
+inline void add_fastening(const FastenerMemo& memo, const Driven& driven, std::string& text, nlohmann::json& data) {
+  const fasteners::Fastening* f = fastening_about(memo, driven);
+  if (f == nullptr) return;
+  const std::vector<Part>& parts = memo.assembly().parts;
+  const std::string words = fasteners::fastening_text(memo.assembly(), *f);
+  if (words.empty()) return;
+  text += fmt::format(" '{}' {}{}.", parts[f->screw].name, words.starts_with("driven") ? "is " : "", words);
+  nlohmann::json& out = data["fastens"] = {{"screw", parts[f->screw].name}};
+  for (const auto& [key, of] : {std::pair{"clamps", &f->clamps}, {"into", &f->into}, {"only", &f->only}})
+    for (const PartId part : *of) out[key].push_back(parts[part].name);
+}
+
 inline nlohmann::json json_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace dismantle::checks

@@ -93,6 +93,32 @@ TEST(ToolAccess, ANutInAPocketIsNotHeld) {
   EXPECT_EQ(data["kept_by"], "pocket");
 }
 
+// A nut without its bolt falls off, unless a pocket keeps it: it comes later. Sizes of tables and a drive change
+// nothing.
+TEST(ToolAccess, ANutComesAfterItsBolt) {
+  Bolted known;
+  Bolted named;
+  named.meshes[named.bolt] = shapes::moved(solids::screw({3.1, 12, 7, 4.5}), shapes::shift({0, 0, -12}));
+  named.meshes[named.nut] = shapes::moved(solids::nut(solids::polygon(4, 8), 3.1, 1), shapes::shift({0, 0, -9}));
+  for (Bolted* s : {&known, &named}) {
+    const auto corners = s == &known ? solids::polygon(6, 5.8) : solids::polygon(4, 8.2);
+    const PartId pocket = s->add(
+        "pocket",
+        solids::turned_solid({{-30, solids::circle(24)}, {-8, solids::circle(24)}, {-8, corners}, {-30, corners}}));
+    Assembly assembly = s->assembly();
+    fasteners::recognise_kinds(assembly, RunContext{});
+    const Vector3d up = Vector3d::UnitZ();
+    const StepVerdict v = judge(ToolAccess(), assembly, {s->nut}, {s->upper, s->lower}, up);
+    EXPECT_EQ(v.cost, 1);
+    EXPECT_EQ(v.reason, "'nut' is put in before its screw 'bolt'");
+    EXPECT_EQ(data_of(v, "early")["missing"], nlohmann::json::array({"bolt"}));
+    EXPECT_EQ(judge(ToolAccess(), assembly, {s->nut}, {s->upper, s->lower, s->bolt}, up).cost, 0);
+    EXPECT_EQ(judge(ToolAccess(), assembly, {s->nut}, {s->upper, s->lower}, Vector3d::UnitX()).cost, 1);
+    EXPECT_EQ(data_of(judge(ToolAccess(), assembly, {s->bolt}, {s->upper, s->lower}, -up), "later")["nut"], "nut");
+    EXPECT_EQ(judge(ToolAccess(), assembly, {s->nut}, {s->upper, s->lower, pocket}, up).cost, 0);
+  }
+}
+
 // A screw that is tightened before what it clamps is there costs; one note, with the names.
 TEST(ToolAccess, AScrewComesAfterWhatItClamps) {
   Scene s;

@@ -23,7 +23,8 @@ DISMANTLE_API std::string size_text(Kind kind, const std::string& size, double l
 DISMANTLE_API double millimetres_per_unit(const Assembly& assembly);
 
 /// The shapes of all parts; equal parts are looked at once. Deterministic on any number of threads. A plain ring inside
-/// a nut, coaxial with it, is the nut's (a lock nut of two bodies). @throws Error when `context` wants to stop.
+/// a nut, coaxial with it, is the nut's (a lock nut of two bodies). Where Part::kind is set to a screw or nut and the
+/// shape does not say so, it is what shape_as() finds. @throws Error when `context` wants to stop.
 DISMANTLE_API std::vector<Shape> shapes_of(const Assembly& assembly, const RunContext& context);
 
 /// How recognise_kinds() reads an assembly.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 
 #include "dismantle/export.h"
@@ -32,5 +33,9 @@ struct Shape {
 /// `mm`: millimetres in a unit of the mesh, > 0. The mesh must be closed; open ones are `other`. The pose, the scale
 /// (with `mm`) and the triangulation change only rounding.
 DISMANTLE_API Shape recognise_shape(const Mesh& mesh, double mm);
+
+/// A part that is known to be a screw or a nut, whatever its sizes: the axis, the head and the shank of a screw with a
+/// head, or the axis and the hole of a nut that is not round. None: it has no such form.
+DISMANTLE_API std::optional<Shape> shape_as(Kind kind, const Mesh& mesh, double mm);
 
 }  // namespace dismantle::fasteners
