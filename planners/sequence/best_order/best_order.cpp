@@ -112,8 +112,10 @@ class Rewriting {
     std::vector<Block> blocks = order::blocks_of(plan_, scene_);
     constexpr int kRounds = 4;  // a refusal of the verifier is known in the next one
     // The search estimates what the checks say. Two searches of different width give two orders, and the checks choose.
+    // Where they like neither, the estimate has misled the search: a wider one follows, if it has a chance to end.
     double bound = 0;
-    for (const double share : {2.0 / 3, 1.0 / 3}) {
+    for (const double share : {2.0 / 3, 1.0 / 3, 3.0}) {
+      if (share > 1 && (kept || after_ < kForbidden || !worth_it_ || plan_.size() > kMostForExact)) break;
       complete_ = true;
       const Effort own{static_cast<std::uint64_t>(share * static_cast<double>(effort_.left)), effort_.stop};
       for (int round = 0; round < kRounds && !context_.should_stop(); ++round) {
