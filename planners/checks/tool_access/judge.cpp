@@ -125,7 +125,7 @@ class Judge {
   /// What the order of the screws calls for.
   void look_at_order(PartId screw) {
     if (auto note = early_note(memo_, there_, screw))
-      add_early(std::move(*note), fmt::format("'{}' is tightened before what it clamps is there", name(screw)));
+      add_early(std::move(*note), fmt::format("'{}' is tightened before what it fastens is there", name(screw)));
     const fasteners::Pattern* pattern = memo_.pattern_of(screw);
     if (pattern == nullptr || std::find(said_.begin(), said_.end(), pattern) != said_.end()) return;
     said_.push_back(pattern);

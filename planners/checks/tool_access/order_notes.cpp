@@ -22,11 +22,19 @@ std::vector<std::string> names_of(const FastenerMemo& memo, const std::vector<Pa
 std::optional<StepNote> early_note(const FastenerMemo& memo, std::span<const PlacedPart> there, PartId screw) {
   const fasteners::Fastening* f = memo.fastening_of(screw);
   if (f == nullptr) return std::nullopt;
+  const std::string& name = memo.assembly().parts[screw].name;
+  const auto is_there = [&](PartId part) { return is_in(part, there); };
+  if (!f->nut && !f->into.empty() && std::none_of(f->into.begin(), f->into.end(), is_there)) {
+    const std::vector<std::string> into = names_of(memo, f->into);
+    return StepNote{"tool_access.early",
+                    fmt::format("'{}' is put in too early: it is driven into {}, which {} not there yet.", name,
+                                listed_names(into), into.size() == 1 ? "is" : "are"),
+                    nlohmann::json{{"screw", name}, {"missing", into}}.dump()};
+  }
   std::vector<PartId> parts = f->clamps;
-  std::erase_if(parts, [&](PartId part) { return is_in(part, there); });
+  std::erase_if(parts, is_there);
   if (parts.empty()) return std::nullopt;
   const std::vector<std::string> missing = names_of(memo, parts);
-  const std::string& name = memo.assembly().parts[screw].name;
   return StepNote{"tool_access.early",
                   fmt::format("'{}' is tightened too early: it clamps {}, which {} not there yet.", name,
                               listed_names(missing), missing.size() == 1 ? "is" : "are"),

@@ -130,10 +130,14 @@ TEST(ToolAccess, AScrewComesAfterWhatItClamps) {
   const StepVerdict v = judge(ToolAccess(), assembly, {screw_id}, {base}, -Vector3d::UnitZ());
   EXPECT_EQ(v.cost, 1);
   EXPECT_TRUE(v.allowed);
-  EXPECT_EQ(v.reason, "'screw' is tightened before what it clamps is there");
+  EXPECT_EQ(v.reason, "'screw' is tightened before what it fastens is there");
   ASSERT_EQ(v.notes.size(), 2u);
   EXPECT_EQ(v.notes[1].kind, "tool_access.early");
   EXPECT_EQ(v.notes[1].text, "'screw' is tightened too early: it clamps 'lid', which is not there yet.");
+  const StepVerdict loose = judge(ToolAccess(), assembly, {screw_id}, {lid}, -Vector3d::UnitZ());
+  EXPECT_EQ(loose.cost, 1);
+  ASSERT_EQ(loose.notes.size(), 2u);
+  EXPECT_EQ(loose.notes[1].text, "'screw' is put in too early: it is driven into 'base', which is not there yet.");
 }
 
 // The first of four equal screws says how they are tightened, the others do not.
