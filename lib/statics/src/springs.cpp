@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "polygon.h"
+
 namespace dismantle::statics {
 namespace {
 
@@ -20,6 +22,9 @@ using Eigen::VectorXd;
 constexpr double kProximalLeast = 1e-8, kProximalMost = 1;
 /// The same for Coulomb's law itself: only against exact singularity.
 constexpr double kProximalCoupled = 1e-9;
+/// Coulomb: what presses where depends on the stiffness, which is that of an elastic bed: by the area of a contact.
+/// Edges and points have this share of the mean.
+constexpr double kLeastBed = 0.1;
 constexpr int kNewtonSteps = 60, kCoupledSteps = 25, kLineSteps = 12;
 constexpr double kLineShare = 0.1;  // of the slope at the start: a shorter step is no better for Newton's method
 
@@ -71,11 +76,20 @@ Springs::Springs(const Pile& pile, FrictionLaw law)
     const Vec3 &center_a = pile.bodies[head.a].center, &center_b = pile.bodies[head.b].center;
     const Vec3 origin = a >= 0 ? center_a : center_b;
     const std::size_t first = points_.size();
+    double area = 0, count = 0;
+    for (const std::size_t k : contacts) {
+      area += area_of(pile.contacts[k].points).norm();
+      count += static_cast<double>(pile.contacts[k].points.size());
+    }
     for (const std::size_t k : contacts) {
       const Contact& c = pile.contacts[k];
+      const double corners = static_cast<double>(c.points.size());
+      const double bed = law == FrictionLaw::associated || !(area > 0)
+                             ? 1
+                             : std::max(kLeastBed, area_of(c.points).norm() / area * count / corners);
       const double light = a < 0 ? share_[c.b] : b < 0 ? share_[c.a] : std::min(share_[c.a], share_[c.b]);
       for (std::size_t i = 0; i < c.points.size(); ++i)
-        points_.push_back({k, i, c.points[i] - origin, c.normal, light, c.friction,
+        points_.push_back({k, i, c.points[i] - origin, c.normal, bed * light, c.friction,
                            std::numeric_limits<double>::infinity(), c.bonded});
     }
     pairs_.push_back({a, b, first, points_.size(), origin - center_a, origin - center_b});
