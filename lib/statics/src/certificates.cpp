@@ -11,6 +11,8 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
+constexpr double kPresses = 1e-9;  // of the largest motion: above rounding, below what long chains give way
+
 Vec3 relative(const Pile& pile, const Contact& c, const Vec3& at, const Motions& motion) {
   return motion[c.a].at(at - pile.bodies[c.a].center) - motion[c.b].at(at - pile.bodies[c.b].center);
 }
@@ -82,7 +84,7 @@ std::string check_equilibrium(const Pile& pile, const ContactForces& forces) {
 std::string check_created(const Pile& pile, const ContactForces& forces, const Motions& motion) {
   if (auto wrong = malformed(pile, forces); !wrong.empty()) return wrong;
   if (auto wrong = malformed(pile, motion); !wrong.empty()) return wrong;
-  const double slack = kCertificateTolerance * largest(pile, motion);
+  const double most = largest(pile, motion), slack = kCertificateTolerance * most;
   for (std::size_t k = 0; k < forces.size(); ++k) {
     const Contact& c = pile.contacts[k];
     if (c.bonded) continue;
@@ -91,7 +93,8 @@ std::string check_created(const Pile& pile, const ContactForces& forces, const M
       const Vec3 moved = relative(pile, c, c.points[p], motion);
       const double depth = -moved.dot(c.normal), normal = f.dot(c.normal);
       const double light = kCertificateTolerance * std::max(pile.bodies[c.a].weight, pile.bodies[c.b].weight);
-      if (f.norm() > light && !(depth > 0)) return fmt::format("a force of contact {} acts where nothing presses", k);
+      if (f.norm() > light && !(depth > kPresses * most))
+        return fmt::format("a force of contact {} acts where nothing presses", k);
       const Vec3 sliding = moved + depth * c.normal, friction = f - normal * c.normal;
       // Opposite directions: what is left of the friction after its part against the sliding.
       const double length = sliding.norm();

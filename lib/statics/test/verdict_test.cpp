@@ -71,6 +71,24 @@ TEST(Verdict, ABlockBetweenTwoWallsIsPressedIn) {
   EXPECT_EQ(verdict_of(pile_of({left, right, block}, 2, 0.0)), Verdict::falls);
 }
 
+// Law: a motion straight down presses nothing, though rounding says so in some positions.
+TEST(Verdict, ABlockBetweenWallsIsPressedInWhereverItIs) {
+  std::mt19937 random(29);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    const double half = 0.6 + unit(random), friction = 0.05 + 0.4 * unit(random),
+                 scale = std::exp(6 * unit(random) - 3);
+    std::vector<Mesh> meshes = {box({-2, -1, -3}, {-1, 1, 3}), box({1, -1, -3}, {2, 1, 3}),
+                                box({-1, -unit(random), -half}, {1, unit(random), half})};
+    const Eigen::Quaterniond turn = Eigen::Quaterniond::UnitRandom();
+    for (Mesh& m : meshes)
+      for (Vec3& v : m.vertices) v = scale * (turn * v);
+    Pile pile = pile_of(meshes, 2, friction);
+    pile.down = turn * pile.down;
+    EXPECT_EQ(verdict_of(pile), Verdict::pressed_in) << trial;
+  }
+}
+
 TEST(Verdict, PressureOnTheLegsLimitsTheirPush) {
   // A slab of 3 on two legs of 1, friction 0.5: a horizontal push of half of its weight moves it.
   Pile pile = pile_of(
