@@ -110,6 +110,10 @@ std::string text_of(const Json& report, const Stability& asked) {
   const std::string verdict = report.at("verdict");
   std::string text =
       fmt::format("{}: {}\n", asked.input, verdict == "pressed_in" ? "stands only if it was pressed in" : verdict);
+  if (verdict == "uncertain") {
+    const std::string flips = report.at("flips_text");
+    text += flips.empty() ? "No change was found that makes it certain.\n" : fmt::format("It changes: {}.\n", flips);
+  }
   const auto names = [](const Json& list) {
     return fmt::format("{}", fmt::join(list.get<std::vector<std::string>>(), ", "));
   };

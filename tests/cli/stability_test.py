@@ -70,6 +70,31 @@ class Stability(CliTest):
             self.write(f"out_{folder}/other.json", json.dumps(report))
             self.assertIn(self.run_program("verify", f"out_{folder}/other.json").returncode, (1, 3))
 
+    def test_an_uncertain_verdict_says_between_what_it_changes(self):
+        # A leg that ends below the plate by 0.29 % of its radius, which is between half and once what counts as touching.
+        gap = 0.7 * 0.004 * math.sqrt(10**2 + 10**2 + 20**2) / 2
+        self.write_boxes("sign", leg1=((0, 0, 0), (10, 10, 20)), leg2=((50, 0, 0), (60, 10, 20 - gap)), plate=((0, 0, 20), (60, 10, 25)))
+        result = self.stability("sign", "-o", "out", status=1)
+        self.assertEqual(result["verdict"], "uncertain")
+        self.assertEqual([(f["touching"], f["verdict"]) for f in result["flips"]], [(0.5, "falls"), (1, "stands"), (2, "stands")])
+        self.assertIn("with half the tolerance of contacts it falls", result["flips_text"])
+        self.assertIn(result["flips_text"], self.run_program("stability", "sign", status=1).stdout)
+        self.run_program("verify", "out/stability.json", status=0)
+        report = json.loads(self.read("out", "stability.json"))
+        report["certificate"]["variants"].pop(0)
+        self.write("out/other.json", json.dumps(report))
+        self.run_program("verify", "out/other.json", status=1)
+
+    def test_what_is_pressed_in_is_verified(self):
+        self.write_boxes("walls", left=((-20, -10, -30), (-10, 10, 30)), right=((10, -10, -30), (20, 10, 30)), block=((-10, -5, -8), (10, 5, 8)))
+        self.assertEqual(self.stability("walls", "--fixed", "left", "--fixed", "right", "-o", "out", status=1)["verdict"], "pressed_in")
+        self.run_program("verify", "out/stability.json", status=0)
+        report = json.loads(self.read("out", "stability.json"))
+        for contact in report["certificate"]["contacts"]:
+            contact["others"] = contact["forces"]
+        self.write("out/other.json", json.dumps(report))
+        self.assertIn("press alike", self.run_program("verify", "out/other.json", status=1).stdout)
+
     def test_a_sentence_and_a_page(self):
         self.write_boxes("sign", leg=((0, 0, 0), (10, 10, 20)), plate=((0, 0, 20), (60, 10, 25)))
         self.write_boxes("air", low=((0, 0, 0), (10, 10, 10)), high=((0, 0, 15), (10, 10, 25)))

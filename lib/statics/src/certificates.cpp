@@ -5,13 +5,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dismantle::statics {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kPresses = 1e-9;  // of the largest motion: above rounding, below what long chains give way
+constexpr double kPresses = 1e-9;    // of the largest motion: above rounding, below what long chains give way
+constexpr double kDifferent = 1e-3;  // of a weight: pressures; far above rounding
 
 Vec3 relative(const Pile& pile, const Contact& c, const Vec3& at, const Motions& motion) {
   return motion[c.a].at(at - pile.bodies[c.a].center) - motion[c.b].at(at - pile.bodies[c.b].center);
@@ -43,6 +45,11 @@ std::string malformed(const Pile& pile, const ContactForces& forces) {
 }
 
 }  // namespace
+
+Pile without_friction(Pile pile) {
+  for (Contact& c : pile.contacts) c.friction = 0;
+  return pile;
+}
 
 std::string check_equilibrium(const Pile& pile, const ContactForces& forces) {
   if (auto wrong = malformed(pile, forces); !wrong.empty()) return wrong;
@@ -138,15 +145,42 @@ std::string check_fall(const Pile& pile, const Motions& motion) {
   return "";
 }
 
+double lighter_weight(const Pile& pile, const Contact& contact) {
+  const Body &a = pile.bodies[contact.a], &b = pile.bodies[contact.b];
+  if (a.fixed && b.fixed) return 0;
+  return a.fixed ? b.weight : b.fixed ? a.weight : std::min(a.weight, b.weight);
+}
+
+double pressure_of(const Contact& contact, const std::vector<Vec3>& forces) {
+  double sum = 0;
+  for (const Vec3& f : forces) sum += f.dot(contact.normal);
+  return sum;
+}
+
+bool press_differently(const Pile& pile, const ContactForces& forces, const ContactForces& others) {
+  for (std::size_t k = 0; k < pile.contacts.size(); ++k) {
+    const Contact& c = pile.contacts[k];
+    const double weight = lighter_weight(pile, c);
+    if (!c.bonded && weight > 0 &&
+        std::abs(pressure_of(c, forces[k]) - pressure_of(c, others[k])) > kDifferent * weight)
+      return true;
+  }
+  return false;
+}
+
+std::string check_pressed_in(const Pile& pile, const ContactForces& forces, const ContactForces& others,
+                             const Motions& slide) {
+  for (const ContactForces* balanced : {&forces, &others})
+    if (auto wrong = check_equilibrium(pile, *balanced); !wrong.empty()) return wrong;
+  if (auto wrong = check_fall(without_friction(pile), slide); !wrong.empty()) return "without friction: " + wrong;
+  return press_differently(pile, forces, others) ? "" : "both sets of forces press alike";
+}
+
 ContactForces spring_forces(const Pile& pile, const Motions& displacement) {
   ContactForces forces;
   if (displacement.size() != pile.bodies.size()) return forces;
   for (const Contact& c : pile.contacts) {
-    const Body &a = pile.bodies[c.a], &b = pile.bodies[c.b];
-    const double stiffness = a.fixed && b.fixed ? 0
-                             : a.fixed          ? b.weight
-                             : b.fixed          ? a.weight
-                                                : std::min(a.weight, b.weight);
+    const double stiffness = lighter_weight(pile, c);
     auto& at = forces.emplace_back();
     for (const Vec3& p : c.points) {
       const Vec3 elastic = -stiffness * relative(pile, c, p, displacement);

@@ -73,6 +73,23 @@ std::vector<std::string> reasons_of(const Pile& pile, const Motions& motion, con
   return first.empty() ? others : first;
 }
 
+/// Those with certificates, if they differ; otherwise something near one of the others.
+std::vector<Variant> flips_between(std::vector<Variant> variants, const Stop& stop) {
+  std::vector<Variant> open;
+  for (auto at = variants.begin(); at != variants.end();) {
+    if (at->judgement.verdict != Verdict::uncertain) {
+      ++at;
+      continue;
+    }
+    open.push_back(std::move(*at));
+    at = variants.erase(at);
+  }
+  if (check_flips(variants).empty()) return variants;
+  for (const Variant& v : open)
+    if (std::vector<Variant> found = flips_of(v.pile, v.touching, stop); !found.empty()) return found;
+  return {};
+}
+
 }  // namespace
 
 AssemblyPile::AssemblyPile(const Assembly& assembly, StabilityOptions options)
@@ -126,7 +143,15 @@ StabilityReport judge_assembly(const AssemblyPile& assembly, const Stop& stop) {
   Pile& pile = report.pile;
   report.judgement = judge(pile, stop);
   const Verdict verdict = report.judgement.verdict;
-  report.at_tolerances = {judge(assembly.pile(0.5), stop).verdict, verdict, judge(assembly.pile(2), stop).verdict};
+  std::vector<Variant> variants;
+  for (const double factor : {0.5, 1.0, 2.0}) {
+    Variant v;
+    v.touching = factor;
+    v.pile = factor == 1 ? pile : assembly.pile(factor);
+    v.judgement = factor == 1 ? report.judgement : judge(v.pile, stop);
+    report.at_tolerances.push_back(v.judgement.verdict);
+    variants.push_back(std::move(v));
+  }
   for (const double friction : kFrictions) {
     Pile other = pile;
     for (Contact& c : other.contacts) c.friction = friction;
@@ -159,6 +184,12 @@ StabilityReport judge_assembly(const AssemblyPile& assembly, const Stop& stop) {
   }
   if (std::any_of(report.at_tolerances.begin(), report.at_tolerances.end(), [&](Verdict v) { return v != verdict; }))
     report.judgement.verdict = Verdict::uncertain;
+  if (report.judgement.verdict == Verdict::uncertain) {
+    report.variants = flips_between(std::move(variants), stop);
+  } else {
+    variants.erase(variants.begin() + 1);
+    report.variants = std::move(variants);
+  }
   return report;
 }
 

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "dismantle/errors.h"
-#include "dismantle/statics/certificates.h"
 #include "dismantle/statics/describe.h"
+#include "dismantle/statics/flips.h"
 #include "dismantle/statics/stability.h"
 
 namespace dismantle::statics {
@@ -46,6 +48,103 @@ Json motions_json(const Motions& motion) {
   return all;
 }
 
+Json forces_json(const std::vector<Vec3>& forces) {
+  Json all = Json::array();
+  for (const Vec3& f : forces) all.push_back(json_of(f));
+  return all;
+}
+
+Json judgement_json(const Pile& pile, const Judgement& judgement) {
+  Json json = {{"contacts", Json::array()}};
+  for (std::size_t k = 0; k < pile.contacts.size(); ++k) {
+    const Contact& c = pile.contacts[k];
+    Json contact = {{"a", c.a},
+                    {"b", c.b},
+                    {"normal", json_of(c.normal)},
+                    {"friction", c.friction},
+                    {"bonded", c.bonded},
+                    {"points", forces_json(c.points)}};
+    if (!judgement.forces.empty()) contact["forces"] = forces_json(judgement.forces[k]);
+    if (!judgement.others.empty()) contact["others"] = forces_json(judgement.others[k]);
+    json["contacts"].push_back(std::move(contact));
+  }
+  if (!judgement.displacement.empty()) json["displacement"] = motions_json(judgement.displacement);
+  if (judgement.verdict == Verdict::falls) json["motion"] = motions_json(judgement.motion);
+  if (!judgement.slide.empty()) json["slide"] = motions_json(judgement.slide);
+  return json;
+}
+
+Json variant_json(const Variant& v) {
+  Json json = {{"touching", v.touching}, {"friction", v.friction}, {"verdict", to_string(v.judgement.verdict)}};
+  if (v.tilt != 0) json["tilt"] = {{"axis", json_of(v.axis)}, {"angle", v.tilt}};
+  return json;
+}
+
+Verdict verdict_in(const Json& json) {
+  const std::string name = json.at("verdict");
+  for (const Verdict v : {Verdict::stands, Verdict::falls, Verdict::pressed_in, Verdict::uncertain})
+    if (name == to_string(v)) return v;
+  throw InputError("", fmt::format("the stability file states an unknown verdict '{}'", name));
+}
+
+constexpr double kSame = 1e-9;  // of a size
+
+bool is_same(const Json& json, const Vec3& v, double size) { return (vector_in(json) - v).norm() <= kSame * size; }
+
+bool is_same(const Json& json, double value) { return std::abs(json.get<double>() - value) <= kSame * std::abs(value); }
+
+/// What differs from the contacts that were found again; empty: nothing.
+std::string other_contacts(const Json& certificate, const Pile& pile) {
+  const Json& contacts = certificate.at("contacts");
+  if (contacts.size() != pile.contacts.size()) return "the assembly has other contacts than the file states";
+  for (std::size_t k = 0; k < pile.contacts.size(); ++k) {
+    const Contact& c = pile.contacts[k];
+    const Json &json = contacts[k], &points = json.at("points");
+    if (json.at("a") != c.a || json.at("b") != c.b)
+      return fmt::format("contact {} is between other parts than the file states", k);
+    bool same = is_same(json.at("normal"), c.normal, 1) && is_same(json.at("friction"), c.friction) &&
+                json.at("bonded") == c.bonded && points.size() == c.points.size();
+    for (std::size_t p = 0; same && p < c.points.size(); ++p)
+      same = is_same(points[p], c.points[p], c.points[p].norm() + pile.bodies[c.a].radius);
+    if (!same) return fmt::format("contact {} is another one than the file states", k);
+  }
+  return "";
+}
+
+/// What differs from the bodies of the pile; empty: nothing.
+std::string other_bodies(const Json& certificate, const Pile& pile) {
+  const Json& bodies = certificate.at("bodies");
+  if (bodies.size() != pile.bodies.size()) return "the assembly has other bodies than the file states";
+  if (!is_same(certificate.at("down"), pile.down, 1)) return "the file states another direction of gravity";
+  for (std::size_t i = 0; i < pile.bodies.size(); ++i) {
+    const Body& b = pile.bodies[i];
+    if (!is_same(bodies[i].at("newton"), b.weight) || bodies[i].at("fixed") != b.fixed ||
+        !is_same(bodies[i].at("center"), b.center, b.center.norm() + b.radius))
+      return fmt::format("body {} is another one than the file states", i);
+  }
+  return "";
+}
+
+/// What the certificate of this verdict consists of.
+Judgement judgement_in(const Json& json, Verdict verdict) {
+  Judgement judgement;
+  judgement.verdict = verdict;
+  const auto forces = [&](const char* name) {
+    ContactForces all;
+    for (const Json& c : json.at("contacts"))
+      for (auto& at = all.emplace_back(); const Json& f : c.at(name)) at.push_back(vector_in(f));
+    return all;
+  };
+  if (verdict == Verdict::falls) judgement.motion = motions_in(json.at("motion"));
+  if (verdict == Verdict::stands || verdict == Verdict::pressed_in) judgement.forces = forces("forces");
+  if (verdict == Verdict::stands) judgement.displacement = motions_in(json.at("displacement"));
+  if (verdict == Verdict::pressed_in) {
+    judgement.others = forces("others");
+    judgement.slide = motions_in(json.at("slide"));
+  }
+  return judgement;
+}
+
 }  // namespace
 
 std::string report_json(const StabilityReport& report, const Assembly& assembly, const AssemblyPile& pile) {
@@ -76,6 +175,11 @@ std::string report_json(const StabilityReport& report, const Assembly& assembly,
   for (std::size_t k = 0; k < report.at_tolerances.size(); ++k)
     json["by_contact_tolerance"].push_back(
         {{"factor", 0.5 * static_cast<double>(1 << k)}, {"verdict", to_string(report.at_tolerances[k])}});
+  if (report.judgement.verdict == Verdict::uncertain) {
+    json["flips"] = Json::array();
+    for (const Variant& v : report.variants) json["flips"].push_back(variant_json(v));
+    json["flips_text"] = flips_text(report.variants);
+  }
   json["contacts"] = report.pile.contacts.size();
   json["assumed"] = {{"unit", pile.unit_known() ? assembly.unit : "mm"},
                      {"touching", pile.options().touching},
@@ -103,7 +207,7 @@ std::string picture_of(const StabilityReport& report, const Assembly& assembly) 
 
 std::string certificate_json(const StabilityReport& report, const Assembly& assembly) {
   const Pile& pile = report.pile;
-  Json json = {{"down", json_of(pile.down)}, {"bodies", Json::array()}, {"contacts", Json::array()}};
+  Json json = {{"down", json_of(pile.down)}, {"bodies", Json::array()}};
   for (std::size_t i = 0; i < pile.bodies.size(); ++i) {
     const Body& b = pile.bodies[i];
     json["bodies"].push_back({{"name", name_of(static_cast<std::uint32_t>(i), assembly)},
@@ -111,24 +215,13 @@ std::string certificate_json(const StabilityReport& report, const Assembly& asse
                               {"center", json_of(b.center)},
                               {"fixed", b.fixed}});
   }
-  const ContactForces& forces = report.judgement.forces;
-  for (std::size_t k = 0; k < pile.contacts.size(); ++k) {
-    const Contact& c = pile.contacts[k];
-    Json contact = {{"a", c.a},
-                    {"b", c.b},
-                    {"normal", json_of(c.normal)},
-                    {"friction", c.friction},
-                    {"bonded", c.bonded},
-                    {"points", Json::array()}};
-    for (const Vec3& p : c.points) contact["points"].push_back(json_of(p));
-    if (!forces.empty()) {
-      contact["forces"] = Json::array();
-      for (const Vec3& f : forces[k]) contact["forces"].push_back(json_of(f));
-    }
-    json["contacts"].push_back(std::move(contact));
+  if (report.judgement.verdict != Verdict::uncertain) json.update(judgement_json(pile, report.judgement));
+  json["variants"] = Json::array();
+  for (const Variant& v : report.variants) {
+    Json variant = variant_json(v);
+    variant.update(judgement_json(v.pile, v.judgement));
+    json["variants"].push_back(std::move(variant));
   }
-  if (!report.judgement.displacement.empty()) json["displacement"] = motions_json(report.judgement.displacement);
-  if (!report.judgement.motion.empty()) json["motion"] = motions_json(report.judgement.motion);
   return json.dump();
 }
 
@@ -136,25 +229,35 @@ std::string check_stability_json(const std::string& text, const AssemblyPile& as
   try {
     const Json json = Json::parse(text);
     const Json& certificate = json.at("certificate");
-    const std::string verdict = json.at("verdict").get<std::string>();
+    const Verdict verdict = verdict_in(json);
     const Pile pile = assembly.pile();
-    const Json& contacts = certificate.at("contacts");
-    if (contacts.size() != pile.contacts.size()) return "the assembly has other contacts than the file states";
-    ContactForces forces;
-    for (std::size_t k = 0; k < pile.contacts.size(); ++k) {
-      const Json& c = contacts[k];
-      if (c.at("a") != pile.contacts[k].a || c.at("b") != pile.contacts[k].b)
-        return fmt::format("contact {} is between other parts than the file states", k);
-      auto& at = forces.emplace_back();
-      if (c.contains("forces"))
-        for (const Json& f : c.at("forces")) at.push_back(vector_in(f));
+    if (std::string wrong = other_bodies(certificate, pile); !wrong.empty()) return wrong;
+    std::vector<Variant> variants;
+    for (const Json& v : certificate.at("variants")) {
+      Variant& variant = variants.emplace_back();
+      variant.touching = v.at("touching");
+      variant.friction = v.at("friction");
+      if (v.contains("tilt")) {
+        variant.axis = vector_in(v.at("tilt").at("axis"));
+        variant.tilt = v.at("tilt").at("angle");
+      }
+      if (variant.touching != 0.5 && variant.touching != 1 && variant.touching != 2)
+        return "a variant has another tolerance of contacts";
+      variant.pile = varied(assembly.pile(variant.touching), variant);
+      if (std::string wrong = other_contacts(v, variant.pile); !wrong.empty()) return wrong;
+      variant.judgement = judgement_in(v, verdict_in(v));
     }
-    if (verdict == "falls") return check_fall(pile, motions_in(certificate.at("motion")));
-    if (verdict != "stands" && verdict != "pressed_in") return "nothing is certified: the verdict is " + verdict;
-    std::string wrong = check_equilibrium(pile, forces);
-    if (wrong.empty() && verdict == "stands")
-      wrong = check_created(pile, forces, motions_in(certificate.at("displacement")));
-    return wrong;
+    if (verdict == Verdict::uncertain) return check_flips(variants);
+    for (const double factor : {0.5, 2.0}) {
+      const auto at = std::ranges::find_if(variants, [&](const Variant& v) {
+        return v.touching == factor && v.friction == 1 && v.tilt == 0 && v.judgement.verdict == verdict;
+      });
+      if (at == variants.end()) return fmt::format("it is not stated at {} times the tolerance of contacts", factor);
+      if (std::string wrong = check_judgement(at->pile, at->judgement); !wrong.empty())
+        return fmt::format("at {} times the tolerance of contacts: {}", factor, wrong);
+    }
+    if (std::string wrong = other_contacts(certificate, pile); !wrong.empty()) return wrong;
+    return check_judgement(pile, judgement_in(certificate, verdict));
   } catch (const nlohmann::json::exception& e) {
     throw InputError("", fmt::format("the stability file cannot be read: {}", e.what()));
   }

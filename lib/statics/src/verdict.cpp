@@ -6,6 +6,7 @@
 
 #include "dismantle/statics/balance.h"
 #include "dismantle/statics/certificates.h"
+#include "squeeze.h"
 
 namespace dismantle::statics {
 
@@ -44,9 +45,19 @@ Judgement judge(const Pile& pile, const std::function<bool()>& stop, const Motio
   if (auto judged = stands(any)) return std::move(*judged);
   Balance created = balance(pile, FrictionLaw::coulomb, stop, near);
   if (auto judged = stands(created)) return std::move(*judged);
-  if (any.balanced && !created.balanced && check_equilibrium(pile, any.forces).empty() && !(stop && stop()))
-    return {Verdict::pressed_in, std::move(any.forces), {}, std::move(created.falling)};
-  return {};
+  if (!any.balanced || (stop && stop())) return {};
+  Balance slide = balance(without_friction(pile), FrictionLaw::associated, stop);
+  if (auto judged = stands(slide)) return std::move(*judged);  // pressure alone carries it
+  if (created.balanced || slide.balanced) return {};
+  ContactForces others = squeezed_forces(pile, any.forces, created.falling, stop);
+  if (!check_pressed_in(pile, any.forces, others, slide.falling).empty()) return {};
+  return {Verdict::pressed_in,        std::move(any.forces), {},
+          std::move(created.falling), std::move(others),     std::move(slide.falling)};
+}
+
+bool is_pressed_in(const Pile& pile, const Judgement& by_forces, const std::function<bool()>& stop) {
+  return !check_created(pile, by_forces.forces, by_forces.displacement).empty() &&
+         judge(pile, stop).verdict == Verdict::pressed_in;
 }
 
 }  // namespace dismantle::statics

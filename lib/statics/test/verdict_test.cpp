@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "dismantle/statics/certificates.h"
+#include "dismantle/statics/flips.h"
 #include "dismantle/statics/holds.h"
 #include "dismantle/statics/limits.h"
 #include "dismantle/testing/trials.h"
@@ -87,6 +88,45 @@ TEST(Verdict, ABlockBetweenWallsIsPressedInWhereverItIs) {
     pile.down = turn * pile.down;
     EXPECT_EQ(verdict_of(pile), Verdict::pressed_in) << trial;
   }
+}
+
+TEST(Verdict, ThePressureOnWhatIsPressedInIsNotDetermined) {
+  const Mesh left = box({-2, -1, -1}, {-1, 1, 1}), right = box({1, -1, -1}, {2, 1, 1}),
+             block = box({-1, -0.5, -0.3}, {1, 0.5, 0.3});
+  const Pile pile = pile_of({left, right, block}, 2, 0.5);
+  const Judgement found = judge(pile);
+  ASSERT_EQ(check_pressed_in(pile, found.forces, found.others, found.slide), "");
+  EXPECT_NE(check_pressed_in(pile, found.forces, found.forces, found.slide), "");
+  ContactForces others = found.others;
+  others[0][0] *= 1.01;
+  EXPECT_NE(check_pressed_in(pile, found.forces, others, found.slide), "");
+  Motions slide = found.slide;
+  slide[2].v = -slide[2].v;
+  EXPECT_NE(check_pressed_in(pile, found.forces, found.others, slide), "");
+  // A block on a slope stands by friction, but its weight determines the pressure: that it was pressed in cannot be
+  // claimed, whatever the forces of its corners.
+  const Pile slope = tilted(pile_of({ground(), box({-1, -1, 0}, {1, 1, 0.5})}, 1, 0.5), kY, 10 * kDegree);
+  const Judgement stands = judge(slope);
+  ASSERT_EQ(stands.verdict, Verdict::stands);
+  Motions down(2);
+  down[1].v = Vec3::UnitX();
+  EXPECT_EQ(check_fall(without_friction(slope), down), "");
+  others = stands.forces;
+  const std::vector<Vec3>& corners = slope.contacts[0].points;
+  ASSERT_EQ(corners.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) others[0][k] += (k % 2 == 0 ? 0.01 : -0.01) * slope.contacts[0].normal;
+  EXPECT_EQ(check_equilibrium(slope, others), "");
+  EXPECT_NE(check_pressed_in(slope, stands.forces, others, down), "");
+}
+
+// Between two blocks that lie on the ground by friction: how far it can be squeezed is limited.
+TEST(Verdict, ABlockBetweenTwoHeavyOnesIsPressedIn) {
+  Pile pile = pile_of(
+      {ground(), box({-3, -1, 0}, {-1, 1, 2}), box({1, -1, 0}, {3, 1, 2}), box({-1, -0.5, 0.5}, {1, 0.5, 1})}, 1, 0.4);
+  pile.bodies[3].weight = 0.5;
+  const Judgement found = judge(pile);
+  EXPECT_EQ(found.verdict, Verdict::pressed_in);
+  EXPECT_EQ(check_pressed_in(pile, found.forces, found.others, found.slide), "");
 }
 
 TEST(Verdict, PressureOnTheLegsLimitsTheirPush) {
@@ -232,6 +272,18 @@ TEST(Certificates, AreAcceptedAndDoNotSurviveMutation) {
       heavier.bodies[body].weight *= 1.01;
       EXPECT_NE(check_equilibrium(heavier, found.forces), "");
     }
+    if (found.verdict == Verdict::pressed_in) {
+      ASSERT_EQ(check_pressed_in(pile, found.forces, found.others, found.slide), "");
+      ContactForces others = found.others;
+      std::size_t contact = random() % others.size();
+      while (pile.contacts[contact].a == 0 && pile.contacts[contact].b == 0) contact = random() % others.size();
+      others[contact][0] += 0.01 * pile.bodies[body].weight * Vec3::Random();
+      EXPECT_NE(check_pressed_in(pile, found.forces, others, found.slide), "");
+      Motions slide = found.slide;
+      for (Motion& m : slide) m = {-m.v, -m.w};
+      EXPECT_NE(check_pressed_in(pile, found.forces, found.others, slide), "");
+      EXPECT_NE(check_pressed_in(pile, found.forces, found.forces, found.slide), "");
+    }
     if (found.verdict == Verdict::stands) {
       ASSERT_EQ(check_created(pile, found.forces, found.displacement), "");
       Motions lifted = found.displacement;
@@ -249,6 +301,9 @@ TEST(Certificates, AreAcceptedAndDoNotSurviveMutation) {
       ++falling;
     } else {
       ++(found.verdict == Verdict::pressed_in ? pressed : uncertain);
+      if (found.verdict == Verdict::uncertain) {
+        EXPECT_EQ(check_flips(flips_of(pile)), "");
+      }
     }
   }
   RecordProperty("standing", standing);

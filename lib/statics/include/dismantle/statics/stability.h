@@ -10,6 +10,7 @@
 #include "dismantle/assembly.h"
 #include "dismantle/export.h"
 #include "dismantle/statics/contacts.h"
+#include "dismantle/statics/flips.h"
 #include "dismantle/statics/holds.h"
 #include "dismantle/statics/limits.h"
 
@@ -58,6 +59,8 @@ struct StabilityReport {
   Pile pile;                             ///< at the stated tolerance and tilt
   Judgement judgement;                   ///< its verdict is `uncertain` if it changes with the tolerance
   std::vector<Verdict> at_tolerances{};  ///< at half, once and twice the tolerance of contacts
+  /// At half and twice the tolerance, with the same verdict; uncertain: between what it changes, empty: not found.
+  std::vector<Variant> variants{};
   Holds holds{};
   std::vector<PartMove> moves{};
   Motions falling{};               ///< the motion of `moves`; empty: nothing falls

@@ -26,14 +26,20 @@ struct Judgement {
   ContactForces forces{};  ///< stands, pressed_in: in equilibrium
   Motions displacement{};  ///< stands: creates the forces
   Motions motion{};        ///< falls: Farkas' motion. pressed_in: how it moves if it was not pressed in
+  ContactForces others{};  ///< pressed_in: in equilibrium, too, with other pressures
+  Motions slide{};         ///< pressed_in: Farkas' motion without friction
 };
 
-/// Judges a pile; every certificate has been checked by check_equilibrium(), check_created() or check_fall().
-/// A pile without anything that can move stands. `near`: as for balance().
+/// Judges a pile; every certificate has been checked by check_equilibrium(), check_created(), check_fall() or
+/// check_pressed_in(). A pile without anything that can move stands. `near`: as for balance().
 DISMANTLE_API Judgement judge(const Pile& pile, const std::function<bool()>& stop = {}, const Motions& near = {});
 
 /// The same for forces alone: `stands` means that forces in equilibrium exist, whatever creates them. Some ten times
 /// faster. The certificates are `forces` and `motion`; `displacement` gives the forces by spring_forces().
 DISMANTLE_API Judgement judge_forces(const Pile& pile, const std::function<bool()>& stop = {});
+
+/// Is a pile that forces balance (`by_forces`: what judge_forces() found) pressed in? False, too, if it is not found
+/// out. Fast where nothing slides.
+DISMANTLE_API bool is_pressed_in(const Pile& pile, const Judgement& by_forces, const std::function<bool()>& stop = {});
 
 }  // namespace dismantle::statics
