@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <initializer_list>
 #include <random>
 
 #include "dismantle/statics/holds.h"
@@ -38,6 +40,29 @@ TEST(CriticalTilt, OfAnArchIsThatOfThePaper) {
   const auto tilt = critical_tilt(pile_of(meshes, 2, 1.0), Vec3::UnitY());
   ASSERT_TRUE(tilt);
   EXPECT_NEAR(*tilt / kDegrees, 8.2, 0.08);
+}
+
+// A drawer: its tongue is under a ceiling, its rims are on legs. The weight presses the front of the rims, and the
+// tongue a little against the ceiling, by how stiff both are: it slides at the angle of friction, or a little above.
+TEST(CriticalTilt, OfADrawerIsNearTheAngleOfFriction) {
+  const auto solid = [](std::initializer_list<Mesh> boxes) {
+    Mesh all;
+    for (const Mesh& m : boxes) {
+      const auto first = static_cast<std::uint32_t>(all.vertices.size());
+      all.vertices.insert(all.vertices.end(), m.vertices.begin(), m.vertices.end());
+      for (const Triangle& t : m.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    return all;
+  };
+  const Mesh chest = solid({box({-1.5, -0.5, 0}, {-0.8, 0.5, 0.1}), box({-0.8, -0.5, 0}, {0.1, -0.3, 0.1}),
+                            box({-0.8, 0.3, 0}, {0.1, 0.5, 0.1}), box({-1.5, -0.5, 0.1}, {-0.5, 0.5, 0.2})});
+  const Mesh drawer = solid({box({-0.8, -0.3, 0}, {1, 0.3, 0.1}), box({-0.5, -0.5, 0.1}, {0.1, 0.5, 0.2})});
+  for (const double friction : {0.1, 0.3, 0.84}) {
+    const auto tilt = critical_tilt(pile_of({chest, drawer}, 1, friction), Vec3::UnitY());
+    ASSERT_TRUE(tilt);
+    EXPECT_GT(*tilt, std::atan(friction) - 0.1 * kDegrees) << friction;
+    EXPECT_LT(*tilt / kDegrees, std::atan(friction) / kDegrees + 1.2) << friction;
+  }
 }
 
 TEST(LeastPush, OfASlabOnTwoLegs) {
