@@ -11,6 +11,7 @@
 #include "dismantle/executor.h"
 #include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/solid.h"
+#include "snap_depth.h"
 
 namespace dismantle {
 namespace {
@@ -29,6 +30,7 @@ bool is_pair(const Attempt& attempt) { return attempt.moving.size() == 1 && atte
 // pairs.
 constexpr unsigned kDepthOfHolders = 2;
 constexpr std::size_t kMostHolders = 2;
+constexpr double kHopeless = 4;  // tolerances
 
 bool found_nothing(Outcome o) { return o == Outcome::depth_limit || o == Outcome::exhausted || o == Outcome::timeout; }
 
@@ -43,7 +45,7 @@ PathResult infeasible_by(const Certificate& certificate, const Attempt& attempt)
 
 ProofSchedule::ProofSchedule(const Assembly& assembly, const Verifier& verifier, std::vector<NamedProver> provers,
                              const ProofOptions& options, const RunContext& context)
-    : assembly_(assembly), tolerance_(verifier.options().max_penetration), options_(options) {
+    : assembly_(assembly), verifier_(verifier), tolerance_(verifier.options().max_penetration), options_(options) {
   for (NamedProver& named : provers) {
     const ProverTraits traits = named.prover->traits();
     provers_.push_back({std::move(named), traits});
@@ -229,7 +231,10 @@ const Certificate* ProofSchedule::prove_pair(PartId a, PartId b, ProofEffort mos
   return nullptr;
 }
 
+/// Null also for snap fits. The cells of a proof of high effort are far smaller than what holds the parts beyond the
+/// tolerance: for a snap of a few tolerances it takes long and fails.
 const Certificate* ProofSchedule::prove_reduced(PartId a, PartId b, const RunContext& context) {
+  if (cuts_in_little(assembly_, verifier_, a, b, kHopeless * tolerance_, context)) return nullptr;
   return prove({{a, b}, ProofEffort::high, options_.reduced_tolerance}, context);
 }
 

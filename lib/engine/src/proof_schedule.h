@@ -31,8 +31,8 @@ namespace dismantle {
 /// - All: at the end of the run, about each remaining part and the only part that it touched, or about a few together.
 ///
 /// Proofs of high effort try the reduced tolerance first: it takes less time, and what is not proved with it is not
-/// proved with the full tolerance either. With a deadline, each gets only a share of the remaining time, because others
-/// wait for their turn.
+/// proved with the full tolerance either. Pairs that snap are not asked about. With a deadline, each gets only a share
+/// of the remaining time, because others wait for their turn.
 class ProofSchedule {
  public:
   /// References must outlive the schedule. `context` is used for the trivial proofs, on its threads.
@@ -80,6 +80,7 @@ class ProofSchedule {
   bool is_provable(const Attempt& attempt, unsigned depth) const;
 
   const Assembly& assembly_;
+  const Verifier& verifier_;
   double tolerance_;
   const ProofOptions options_;
   std::vector<Prover> provers_;

@@ -69,7 +69,6 @@ bool PathSearcher::search(GroupState& group, SubassemblyId id, unsigned depth, c
   }
   Outcome outcome = result.outcome();
   std::string message = result.message;
-  std::vector<PartId> blocked_by = result.blocked_by;
   if (const auto snap = outcome == Outcome::depth_limit && depth == 1 && snaps_.is_snap_fit(group, id)
                             ? snaps_.holding(group, id)
                             : std::nullopt) {
@@ -78,14 +77,9 @@ bool PathSearcher::search(GroupState& group, SubassemblyId id, unsigned depth, c
     message += (message.empty() ? "'" : "; '") + state_.assembly().parts[snap->part].name + "' and '" +
                state_.assembly().parts[snap->other].name + "' snap: a straight motion cuts in by little (" +
                "sequence_planner.snap_share), so no longer path was searched for";
-    // The engine tries to prove that a part and the one that blocks it never separate. The cells of such a proof are
-    // far smaller than what holds the parts beyond the tolerance: for a snap of a few tolerances it takes long and
-    // fails.
-    constexpr double kHopeless = 4;
-    if (snap->excess() < kHopeless * oracle_.tolerance()) blocked_by.clear();
   }
   if (!state_.stop() || state_.failure_of(part) == nullptr)
-    state_.set_failure({part, outcome, blocked_by, result.best_pose, message, answer.certificate});
+    state_.set_failure({part, outcome, result.blocked_by, result.best_pose, message, answer.certificate});
   history_.add(id, {depth, outcome, result.blocked_by, group.members.size()}, result);
   return false;
 }

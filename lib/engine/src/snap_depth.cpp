@@ -1,0 +1,56 @@
+#include "snap_depth.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "dismantle/geometry/face_axes.h"
+#include "dismantle/verification/motion_depth.h"
+
+namespace dismantle {
+namespace {
+
+constexpr std::size_t kPartAxes = 6;    // of the faces of a part, largest area first
+constexpr double kSameAxis = 1 - 1e-6;  // cosine
+constexpr double kResolution = 0.25;    // of the depths that are measured, as a share of the tolerance
+
+std::vector<geometry::FaceAxis> axes_of(const Assembly& assembly, PartId a, PartId b) {
+  std::vector<geometry::FaceAxis> axes;
+  for (int k = 0; k < 3; ++k) axes.push_back({Eigen::Vector3d::Unit(k), 0});
+  for (const PartId part : {a, b}) {
+    const Mesh& mesh = *assembly.parts[part].mesh;
+    std::vector<geometry::FaceAxis> faces;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      if (const Eigen::Vector3d area = geometry::area_vector(mesh, t); area.norm() > 0)
+        faces.push_back({area.normalized(), area.norm()});
+    faces = geometry::rounded_axes(faces);
+    geometry::sort_by_area(faces, kPartAxes);
+    for (const geometry::FaceAxis& face : faces) geometry::add_face(axes, face, kSameAxis);
+  }
+  return axes;
+}
+
+}  // namespace
+
+bool cuts_in_little(const Assembly& assembly, const Verifier& verifier, PartId a, PartId b, double most,
+                    const RunContext& context) {
+  Aabb both = assembly.parts[a].mesh->box();
+  both.extend(assembly.parts[b].mesh->box());
+  const double far = 1.1 * both.size().norm();  // after so far they are apart
+  MotionDepthMeter meter(assembly, verifier);
+  MotionDepthOptions options;
+  options.absolute = kResolution * verifier.options().max_penetration;
+  options.stop_above = most;
+  bool little = false;
+  for (const geometry::FaceAxis& axis : axes_of(assembly, a, b))
+    for (const double sign : {1.0, -1.0}) {
+      if (context.should_stop()) return false;
+      const Path out{{Pose{}}, {Pose{sign * far * axis.axis, Pose{}.q}}};
+      const std::optional<MotionDepth> cut = meter.deepest({a}, {{b, Pose{}}}, out, options, context);
+      if (!cut || cut->excess() <= verifier.options().max_penetration) return false;  // it may be free
+      little = little || cut->excess() <= most;
+    }
+  return little;
+}
+
+}  // namespace dismantle
