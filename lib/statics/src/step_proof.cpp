@@ -26,6 +26,15 @@ std::vector<PlacedPart> joined(std::span<const PlacedPart> a, std::span<const Pl
   return all;
 }
 
+std::vector<PlacedPart> where_assembled(std::vector<PlacedPart> parts) {
+  constexpr double kSamePlace = 1e-9;  // assembly units
+  if (std::ranges::all_of(parts, [&](const PlacedPart& p) {
+        return p.pose.q.vec().isZero(0) && (p.pose.t - parts.front().pose.t).norm() <= kSamePlace;
+      }))
+    for (PlacedPart& p : parts) p.pose.t.setZero();
+  return parts;
+}
+
 Vec3 up_while_turned(const Vec3& from, const Vec3& to) {
   const Vec3 sum = from + to;
   return from.dot(to) < kOverturn ? Vec3(from.unitOrthogonal()) : Vec3(sum.normalized());
@@ -43,17 +52,15 @@ StepHolds check_step_proof(const BuiltPiles& piles, const StepQuestion& question
     if (gaps != 0 && gaps != 1) return wrong(state, "it does not say which gaps count as touching");
     const bool after = state == "after", turning = state == "turning";
     if (turning && question.previous == nullptr) return wrong(state, "nothing is turned before the first step");
-    const std::vector<PlacedPart> parts =
-        after ? joined(question.present, question.moving) : joined(question.present, {});
+    const std::optional<double> push = state == "during" ? number_in(numbers, "during.push") : 0;
+    if (push != 0 && push != kHandPush && push != -kHandPush) return wrong(state, "it does not say how it is pushed");
+    std::vector<PlacedPart> parts = after ? joined(question.present, question.moving) : joined(question.present, {});
+    if (*push == 0) parts = where_assembled(std::move(parts));
     const Gaps which = *gaps == 0 ? Gaps::tight : Gaps::play;
     const Vec3 up = turning ? up_while_turned(question.previous->up, question.up) : question.up;
     BuiltPile built = piles.pile(parts, up, which, !turning);
-    if (state == "during") {
-      const std::optional<double> push = number_in(numbers, "during.push");
-      if (push != 0 && push != kHandPush && push != -kHandPush) return wrong(state, "it does not say how it is pushed");
-      if (*push != 0)
-        piles.press(built, parts, question.moving, (*push > 0 ? 1.0 : -1.0) * question.direction, kHandPush, which);
-    }
+    if (*push != 0)
+      piles.press(built, parts, question.moving, (*push > 0 ? 1.0 : -1.0) * question.direction, kHandPush, which);
     const std::optional<HoldProof> proof = hold_proof_in(numbers, state, built.pile);
     if (!proof) return wrong(state, "its numbers are not those of such a pile");
     if (std::string text = check_hold_proof(built.pile, *proof); !text.empty()) return wrong(state, text);

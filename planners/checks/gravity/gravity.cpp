@@ -23,9 +23,8 @@ using Vec3 = Eigen::Vector3d;
 using statics::Gaps;
 using statics::joined;
 
-constexpr double kSameUp = 1e-9;     // 1 - cosine
-constexpr double kSamePlace = 1e-9;  // assembly units
-constexpr double kFixtureHand = 2;   // what a hand that is not there costs more
+constexpr double kSameUp = 1e-9;    // 1 - cosine
+constexpr double kFixtureHand = 2;  // what a hand that is not there costs more
 
 std::string quoted(const Assembly& assembly, PartId part) { return "'" + assembly.parts[part].name + "'"; }
 
@@ -143,12 +142,7 @@ Gravity::State Gravity::holds_of(Scene& scene, const statics::BuiltPile& built, 
 
 Gravity::State Gravity::at_rest(Scene& scene, const Assembly& assembly, std::span<const PlacedPart> placed,
                                 const Vec3& up, bool table) const {
-  // Where it stands says nothing: a verdict that rounding decides must be the same in a plan and in its check.
-  std::vector<PlacedPart> parts(placed.begin(), placed.end());
-  if (std::ranges::all_of(parts, [&](const PlacedPart& p) {
-        return p.pose.q.vec().isZero(0) && (p.pose.t - parts.front().pose.t).norm() <= kSamePlace;
-      }))
-    for (PlacedPart& p : parts) p.pose.t.setZero();
+  const std::vector<PlacedPart> parts = statics::where_assembled({placed.begin(), placed.end()});
   std::vector<double> key{up.x(), up.y(), up.z(), table ? 1.0 : 0.0};
   for (const PlacedPart& p : parts)
     key.insert(key.end(), {static_cast<double>(p.part), p.pose.t.x(), p.pose.t.y(), p.pose.t.z(), p.pose.q.w(),

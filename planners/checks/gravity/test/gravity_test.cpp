@@ -93,6 +93,35 @@ TEST(Gravity, WhereItStandsSaysNothing) {
   }
 }
 
+// A foot at the largest distance from the table that counts as touching: rounding decides. The proof was made where the
+// pile is assembled, and holds wherever the plan has it.
+TEST(Gravity, ProofsHoldWhereverThePileIs) {
+  const auto on_feet = [](double gap) {
+    return Scene({block(-2, -1, 0, 1, 2, 1), block(1, -1, gap, 1, 2, 1 - gap), block(-2, -1, 1, 4, 2, 0.5)});
+  };
+  double stands = 0, hangs = 0.5;
+  for (int k = 0; k < 60; ++k) {
+    const double gap = 0.5 * (stands + hangs);
+    (Gravity().judge(on_feet(gap).question(), RunContext{}).cost == 0 ? stands : hangs) = gap;
+  }
+  ASSERT_GT(stands, 0);
+  Rng rng(11);
+  for (const double gap : {stands, hangs}) {
+    Scene scene = on_feet(gap);
+    const statics::BuiltPiles piles(scene.assembly, statics::StatedModel({}, 0.4, {}).options(scene.assembly));
+    for (int k = 0; k < 40; ++k) {
+      const Vector3d t(rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(-9, 9));
+      for (auto* parts : {&scene.present, &scene.moving})
+        for (PlacedPart& p : *parts) p.pose.t = t;
+      StepQuestion question = scene.question();
+      question.direction.setZero();
+      const StepVerdict verdict = Gravity().judge(question, RunContext{});
+      ASSERT_TRUE(verdict.certificate) << gap;
+      EXPECT_EQ(statics::check_step_proof(piles, question, verdict.certificate->numbers).wrong, "") << gap << ", " << k;
+    }
+  }
+}
+
 // Law: the picture shows what is held as falling, and the forces on it add up to nothing.
 TEST(Gravity, ThePictureHasTheFallAndTheForces) {
   Rng rng(17);

@@ -25,6 +25,10 @@ inline constexpr double kHandPush = 2;  ///< times its weight: what a hand press
 /// Both, in ascending order of ids.
 DISMANTLE_API std::vector<PlacedPart> joined(std::span<const PlacedPart> a, std::span<const PlacedPart> b);
 
+/// The parts where they are assembled, if all are only translated from there, and by the same; else as they are. Where
+/// a pile stands says nothing: a verdict that rounding decides must be the same in a plan and in its check.
+DISMANTLE_API std::vector<PlacedPart> where_assembled(std::vector<PlacedPart> parts);
+
 /// An orientation halfway between two; over one side, always the same one, if they are opposite.
 DISMANTLE_API Eigen::Vector3d up_while_turned(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
