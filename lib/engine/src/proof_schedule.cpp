@@ -30,7 +30,7 @@ bool is_pair(const Attempt& attempt) { return attempt.moving.size() == 1 && atte
 // pairs.
 constexpr unsigned kDepthOfHolders = 2;
 constexpr std::size_t kMostHolders = 2;
-constexpr double kHopeless = 4;  // tolerances
+constexpr double kSmallSnap = 4;  // tolerances
 
 bool found_nothing(Outcome o) { return o == Outcome::depth_limit || o == Outcome::exhausted || o == Outcome::timeout; }
 
@@ -234,7 +234,7 @@ const Certificate* ProofSchedule::prove_pair(PartId a, PartId b, ProofEffort mos
 /// Null also for snap fits. The cells of a proof of high effort are far smaller than what holds the parts beyond the
 /// tolerance: for a snap of a few tolerances it takes long and fails.
 const Certificate* ProofSchedule::prove_reduced(PartId a, PartId b, const RunContext& context) {
-  if (cuts_in_little(assembly_, verifier_, a, b, kHopeless * tolerance_, context)) return nullptr;
+  if (cuts_in_little(assembly_, verifier_, a, b, kSmallSnap * tolerance_, context)) return nullptr;
   return prove({{a, b}, ProofEffort::high, options_.reduced_tolerance}, context);
 }
 

@@ -17,16 +17,9 @@ constexpr double kResolution = 0.25;    // of the depths that are measured, as a
 std::vector<geometry::FaceAxis> axes_of(const Assembly& assembly, PartId a, PartId b) {
   std::vector<geometry::FaceAxis> axes;
   for (int k = 0; k < 3; ++k) axes.push_back({Eigen::Vector3d::Unit(k), 0});
-  for (const PartId part : {a, b}) {
-    const Mesh& mesh = *assembly.parts[part].mesh;
-    std::vector<geometry::FaceAxis> faces;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      if (const Eigen::Vector3d area = geometry::area_vector(mesh, t); area.norm() > 0)
-        faces.push_back({area.normalized(), area.norm()});
-    faces = geometry::rounded_axes(faces);
-    geometry::sort_by_area(faces, kPartAxes);
-    for (const geometry::FaceAxis& face : faces) geometry::add_face(axes, face, kSameAxis);
-  }
+  for (const PartId part : {a, b})
+    for (const geometry::FaceAxis& face : geometry::largest_face_axes(*assembly.parts[part].mesh, kPartAxes))
+      geometry::add_face(axes, face, kSameAxis);
   return axes;
 }
 

@@ -99,5 +99,20 @@ TEST(FaceAxes, RoundedOnesDependNeitherOnTheSideNorOnTheOrderOfFaces) {
   }
 }
 
+TEST(FaceAxes, TheLargestOfABoxAreAcrossItsLargestFaces) {
+  Rng rng(2);
+  for (int round = 0; round < 50; ++round) {
+    Vector3d size;
+    Eigen::Quaterniond q;
+    const Mesh mesh = turned_box(rng, size, q);
+    Eigen::Index thin = 0;
+    size.minCoeff(&thin);
+    const std::vector<FaceAxis> axes = largest_face_axes(mesh, 2);
+    ASSERT_EQ(axes.size(), 2U);
+    EXPECT_NEAR(std::abs(axes[0].axis.dot(q * Vector3d::Unit(thin))), 1, 1e-6);
+    EXPECT_NEAR(axes[0].area, 4 * size.prod() / size[thin], 1e-9 * axes[0].area);
+  }
+}
+
 }  // namespace
 }  // namespace dismantle::geometry

@@ -12,16 +12,9 @@ constexpr double kSameAxis = 1 - 1e-6;  // cosine: a straight path that deviates
 std::vector<Eigen::Vector3d> own_axes(const std::vector<PartId>& parts, const Assembly& assembly) {
   std::vector<geometry::FaceAxis> axes;
   for (int k = 0; k < 3; ++k) axes.push_back({Eigen::Vector3d::Unit(k), 0});
-  if (parts.size() == 1) {
-    const Mesh& mesh = *assembly.parts[parts.front()].mesh;
-    std::vector<geometry::FaceAxis> faces;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      if (const Eigen::Vector3d area = geometry::area_vector(mesh, t); area.norm() > 0)
-        faces.push_back({area.normalized(), area.norm()});
-    faces = geometry::rounded_axes(faces);
-    geometry::sort_by_area(faces, kOwnAxes);
-    for (const geometry::FaceAxis& face : faces) geometry::add_face(axes, face, kSameAxis);
-  }
+  if (parts.size() == 1)
+    for (const geometry::FaceAxis& face : geometry::largest_face_axes(*assembly.parts[parts.front()].mesh, kOwnAxes))
+      geometry::add_face(axes, face, kSameAxis);
   std::vector<Eigen::Vector3d> out;
   for (const geometry::FaceAxis& axis : axes) out.push_back(axis.axis);
   return out;

@@ -11,7 +11,7 @@ namespace dismantle::checks {
 
 namespace {
 
-constexpr double kSameDirection = 0.995;  // cosine of 6 degrees, as the check `directions`
+constexpr double kSimilarDirection = 0.995;  // cosine of 6 degrees, as the check `directions`
 
 }  // namespace
 
@@ -60,9 +60,10 @@ StepVerdict IdenticalParts::judge(const StepQuestion& question, const RunContext
   const std::string& name = question.assembly.parts[question.moving.front().part].name;
   if (now == shapes->of(question.previous->moving)) {
     const Eigen::Vector3d &direction = question.direction, &before = question.previous->direction;
-    if (params_.another_way == 0 || direction.isZero() || before.isZero() || direction.dot(before) > kSameDirection ||
+    if (params_.another_way == 0 || direction.isZero() || before.isZero() ||
+        direction.dot(before) > kSimilarDirection ||
         shapes->seen_from(question.moving, direction).dot(shapes->seen_from(question.previous->moving, before)) >
-            kSameDirection)
+            kSimilarDirection)
       return verdict;
     verdict.cost = params_.another_way;
     verdict.reason = fmt::format("'{}' goes in along another direction than the equal part before it", name);

@@ -34,18 +34,11 @@ std::optional<PartId> largest_part(const SequenceQuery& query) {
   return largest;
 }
 
-/// The direction of a straight path of one stretch.
 std::optional<std::size_t> direction_of(const Path& path, const blocking::Directions& directions) {
   const Vector3d out = path.back().front().t - path.front().front().t;
-  const double length = out.norm();
-  for (const auto& poses : path)
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      const Vector3d by = poses[i].t - path.front()[i].t;
-      const bool turned = !poses[i].q.isApprox(path.front()[i].q, 1e-12);
-      if (turned || by.cross(out).norm() > 1e-9 * length * length) return std::nullopt;
-    }
+  if (!is_straight(path)) return std::nullopt;
   for (std::size_t d = 0; d < directions.all.size(); ++d)
-    if (directions.all[d].dot(out) > (1 - 1e-9) * length) return d;
+    if (directions.all[d].dot(out) > (1 - 1e-9) * out.norm()) return d;
   return std::nullopt;
 }
 

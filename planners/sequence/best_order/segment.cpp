@@ -25,7 +25,8 @@ Vector3d insertion_of(const Assembly& assembly, const Removal& removal) {
   return Operation(assembly, answer.attempt.moving, {}, answer.path(), Vector3d::UnitZ()).question().direction;
 }
 
-/// Is the path a translation along one line?
+}  // namespace
+
 bool is_straight(const Path& path) {
   for (std::size_t i = 0; i < path.front().size(); ++i) {
     const Vector3d whole = path.back()[i].t - path.front()[i].t;
@@ -38,8 +39,6 @@ bool is_straight(const Path& path) {
   }
   return true;
 }
-
-}  // namespace
 
 Segment::Segment(OrderScene& scene, std::vector<PlacedPart> start, std::vector<const Removal*> planned)
     : scene_(scene), start_(std::move(start)) {

@@ -42,6 +42,9 @@ struct Motion {
   Eigen::Vector3d insertion = Eigen::Vector3d::Zero();  ///< unit: direction of its last stretch, as assembly
 };
 
+/// Is the path a translation of each part along one line?
+bool is_straight(const Path& path);
+
 class Segment final : public Problem {
  public:
   /// `start`: the group; `planned`: its steps in the order of the first plan. All references must outlive this.

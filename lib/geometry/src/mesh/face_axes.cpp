@@ -38,4 +38,14 @@ std::vector<FaceAxis> rounded_axes(const std::vector<FaceAxis>& faces) {
   return axes;
 }
 
+std::vector<FaceAxis> largest_face_axes(const Mesh& mesh, std::size_t most) {
+  std::vector<FaceAxis> faces;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (const Eigen::Vector3d area = area_vector(mesh, t); area.norm() > 0)
+      faces.push_back({area.normalized(), area.norm()});
+  faces = rounded_axes(faces);
+  sort_by_area(faces, most);
+  return faces;
+}
+
 }  // namespace dismantle::geometry

@@ -42,4 +42,8 @@ DISMANTLE_API void sort_by_area(std::vector<FaceAxis>& axes,
 /// faces this is faster than add_face(), and the axes depend less on the order of faces. Ordered by direction.
 DISMANTLE_API std::vector<FaceAxis> rounded_axes(const std::vector<FaceAxis>& faces);
 
+/// Axes of the faces of a mesh as rounded_axes() joins them, largest area first, at most `most`. FaceAxis::area: twice
+/// the area.
+DISMANTLE_API std::vector<FaceAxis> largest_face_axes(const Mesh& mesh, std::size_t most);
+
 }  // namespace dismantle::geometry
