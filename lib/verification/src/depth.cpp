@@ -30,12 +30,20 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// Deepest surface point of A in B. `place` maps A to the frame of B, `frame` maps that frame to the world.
+/// Deepest surface point of A in B. `place` maps A to the frame of B, `frame` maps that frame to the world. Points in
+/// `left_out` in the assembled frame of either part do not count; null: all count.
 class Descent {
  public:
   Descent(const Solid& a, const Solid& b, const Placement& place, double tolerance, const Pose& frame,
-          Penetration& deepest, const RunContext& context)
-      : a_(a), b_(b), place_(place), tolerance_(tolerance), frame_(frame), deepest_(deepest), context_(context) {}
+          const Aabb* left_out, Penetration& deepest, const RunContext& context)
+      : a_(a),
+        b_(b),
+        place_(place),
+        tolerance_(tolerance),
+        frame_(frame),
+        left_out_(left_out),
+        deepest_(deepest),
+        context_(context) {}
 
   /// Returns true if one shrunken copy of all of A stays off the surface of B.
   bool run() {
@@ -53,7 +61,7 @@ class Descent {
       const Patch patch = open_.front();
       open_.pop_front();
       std::optional<Ridge> ridge;
-      if (settled(patch, ridge)) continue;
+      if (is_left_out(patch) || settled(patch, ridge)) continue;
       if (ridge) {
         for (const Patch& half : patch.halves(ridge->edge, ridge->t)) open_.push_back(half);
       } else {
@@ -69,7 +77,24 @@ class Descent {
 
   /// `x` in the frame of B.
   void found(double depth, const Vec3& x) {
-    if (depth > deepest_.depth) deepest_ = {depth, frame_ * x};
+    if (depth > deepest_.depth && !is_left_out(x)) deepest_ = {depth, frame_ * x};
+  }
+
+  /// `x` in the frame of B.
+  bool is_left_out(const Vec3& x) const {
+    return left_out_ != nullptr && (left_out_->contains(b_.frame * x) ||
+                                    left_out_->contains(a_.frame * Vec3(place_.r.transpose() * (x - place_.t))));
+  }
+
+  /// True if the box contains the whole patch in one of the two frames.
+  bool is_left_out(const Patch& patch) const {
+    if (left_out_ == nullptr) return false;
+    const auto all_in = [&](const auto& to_part) {
+      return std::all_of(patch.p.begin(), patch.p.end(),
+                         [&](const Vec3& p) { return left_out_->contains(to_part(p)); });
+    };
+    return all_in([&](const Vec3& p) -> Vec3 { return a_.frame * p; }) ||
+           all_in([&](const Vec3& p) -> Vec3 { return b_.frame * Vec3(place_ * p); });
   }
 
   double sample(const Vec3& x) {
@@ -94,9 +119,14 @@ class Descent {
     const double e = level();
     std::vector<Patch> clear;
     std::uint64_t seen_so_far = 0;
+    bool some_left_out = false;
     collect(0, [&](const Patch& patch) {
       stopped_ = stopped_ || told_to_stop(++seen_so_far);
       if (stopped_) return;
+      if (is_left_out(patch)) {
+        some_left_out = true;
+        return;
+      }
       const SweepResult seen = test(moved_by_vertices(patch, e));
       if (seen == SweepResult::unclear)
         open_.push_back(patch);
@@ -104,7 +134,7 @@ class Descent {
         clear.push_back(patch);
     });
     if (stopped_) return false;
-    if (open_.empty()) {
+    if (open_.empty() && !some_left_out) {
       bool all_outside = true;
       for (std::size_t k = 0; k + 1 < a_.shell_begin.size() && all_outside; ++k) {
         const std::uint32_t v = a_.shell_vertices[a_.shell_begin[k]];
@@ -158,6 +188,7 @@ class Descent {
   const Placement& place_;
   double tolerance_;
   const Pose& frame_;
+  const Aabb* left_out_;
   Penetration& deepest_;
   const RunContext& context_;
   bool stopped_ = false;  // in the first round
@@ -188,16 +219,13 @@ std::optional<Penetration> wall_depth(const Solid& a, const Pose& place_a, const
 }  // namespace
 }  // namespace verify
 
-Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
-                                double tolerance) {
-  return deepest_penetration(a, pose_a, b, pose_b, tolerance, RunContext{});
-}
+namespace {
 
-Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
-                                double tolerance, const RunContext& context) {
+Penetration deepest_of(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
+                       const Aabb* left_out, double from, double tolerance, const RunContext& context) {
   if (!(tolerance > 0)) throw std::invalid_argument("penetration_depth: tolerance must be > 0");
   using verify::Placement;
-  Penetration deepest;
+  Penetration deepest{from};
   for (const auto& x : a.impl().solids)
     for (const auto& y : b.impl().solids) {
       const Pose place_x = pose_a * x.frame, place_y = pose_b * y.frame;
@@ -214,13 +242,31 @@ Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const De
       const Placement &there = swap ? b_in_a : a_in_b, &back = swap ? a_in_b : b_in_a;
       const Pose &first_frame = swap ? place_y : place_x, &second_frame = swap ? place_x : place_y;
       const double before = deepest.depth;
-      const bool shrunken = verify::Descent(first, second, there, tolerance, second_frame, deepest, context).run();
+      const bool shrunken =
+          verify::Descent(first, second, there, tolerance, second_frame, left_out, deepest, context).run();
       // As in pair_check.cpp: then no point of the second is deeper in the first either.
       if (shrunken && verify::starts_off(second, first, back, before + tolerance)) continue;
       if (context.should_stop()) return deepest;
-      verify::Descent(second, first, back, tolerance, first_frame, deepest, context).run();
+      verify::Descent(second, first, back, tolerance, first_frame, left_out, deepest, context).run();
     }
   return deepest;
+}
+
+}  // namespace
+
+Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
+                                double tolerance) {
+  return deepest_penetration(a, pose_a, b, pose_b, tolerance, RunContext{});
+}
+
+Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
+                                double tolerance, const RunContext& context) {
+  return deepest_of(a, pose_a, b, pose_b, nullptr, 0, tolerance, context);
+}
+
+Penetration deepest_elsewhere(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
+                              const Aabb& region, double from, double tolerance, const RunContext& context) {
+  return deepest_of(a, pose_a, b, pose_b, &region, from, tolerance, context);
 }
 
 double penetration_depth(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "dismantle/testing/shapes.h"
+#include "dismantle/testing/trials.h"
+#include "dismantle/verification/contact.h"
 
 namespace dismantle {
 namespace {
@@ -92,6 +94,31 @@ TEST(MotionDepth, AgreesWithBruteForceOnScrewMotions) {
     EXPECT_TRUE(found.proved);
     EXPECT_GE(found.depth, brute - std::max(0.01, 0.02 * brute) - 5e-3) << "trial " << i;
     EXPECT_LE(found.depth, brute + std::max(0.05, 0.02 * brute)) << "trial " << i;  // brute force misses instants
+  }
+}
+
+/// A pressed pin whose nose passes a wall below the plate. The nose cuts in less than the pin does when assembled.
+TEST(MotionDepth, OutsideTheOverlapWhenAssembledAllIsExcess) {
+  Rng rng(13);
+  for (int i = 0; i < testing_support::trials(2, 20); ++i) {
+    const double press = rng.uniform(0.15, 0.25), cut = press * rng.uniform(0.3, 0.95);
+    const Pose world = shapes::random_pose(rng, 2);
+    const Mesh pin = shapes::joined(
+        shapes::joined(shapes::tube(0, 1 + press, -3, 3, 24, 2), shapes::box({1.5, -0.4, -2.9}, {2.5, 0.4, -1.9})),
+        shapes::box({0, -0.4, -2.9}, {2, 0.4, -2.3}));
+    const Mesh plate = shapes::joined(shapes::tube(1, 1.4, -1, 1, 24, 1), shapes::box({2.5 - cut, -1, -6}, {4, 1, -4}));
+    Assembly assembly = shapes::assembly_of({shapes::moved(pin, world), shapes::moved(plate, world)});
+    const DepthBody x(*assembly.parts[0].mesh), y(*assembly.parts[1].mesh);
+    const Penetration assembled = deepest_penetration(x, Pose{}, y, Pose{}, 1e-4);
+    ASSERT_GT(assembled.depth, cut);
+    const Path path{{Pose{}}, {shift(world.q * Vec3(0, 0, -4.5))}};
+    assembly.overlaps = {{0, 1, assembled.depth}};
+    EXPECT_LT(deepest(assembly, {{1, Pose{}}}, path, {.absolute = 5e-3, .relative = 0.05}).excess(), 0.01);
+    assembly.overlaps[0].place = classify_overlap(x, y, assembled, 1e-4).place;
+    const MotionDepth found = deepest(assembly, {{1, Pose{}}}, path, {.absolute = 5e-3, .relative = 0.05});
+    EXPECT_TRUE(found.proved) << "trial " << i;
+    EXPECT_EQ(found.allowed, 0);
+    EXPECT_NEAR(found.depth, cut, 5e-3 + 0.05 * cut) << "trial " << i;
   }
 }
 

@@ -65,7 +65,8 @@ std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, cons
         if (distance <= 0) continue;
         const Pose end{moving.pose.t + distance * along, moving.pose.q};
         MotionDepthOptions own = options;
-        own.known_invalid = pair.blocked > params_.blocking_share;
+        // What is stated leaves out the pairs that the verifier leaves out.
+        own.known_invalid = pair.blocked > params_.blocking_share && options.absolute > oracle_.tolerance();
         pair.depth = oracle.depth({moving.part}, {fixed}, {{moving.pose}, {end}}, own, context);
         const bool to_the_end = !context.should_stop() && (!pair.depth || pair.depth->excess() <= options.stop_above);
         if (to_the_end) pair.resolution = options.absolute;
