@@ -15,6 +15,19 @@ Aabb box_under(const Placement& m, const Aabb& box) {
   return {c - h, c + h};
 }
 
+/// Corners moved by the vertex rule, but across `motion`: the way out of a surface that is as deep all along a slide. A
+/// corner stays where that has no direction.
+Corners moved_across(const Patch& patch, const Vec3& motion, double depth) {
+  constexpr double kLeast = 0.1;  // of a corner's displacement: less has no sure direction
+  Corners moved = patch.p;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 across = patch.inward[i] - patch.inward[i].dot(motion) * motion;
+    const double length = patch.inward[i].norm();
+    if (across.norm() > kLeast * length) moved[i] += depth * length * across.normalized();
+  }
+  return moved;
+}
+
 }  // namespace
 
 DirectedCheck::DirectedCheck(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits,
@@ -284,6 +297,8 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     return true;
   };
   if (leaves(moved_along(patch, -a_.normals[patch.triangle], e))) return true;
+  if (const Vec3 by = mid.r.transpose() * (end[0] - begin[0]); limits_.overlap > 0 && by.norm() > most)
+    if (leaves(moved_across(patch, by.normalized(), e))) return true;
   // First the shortest way out at mid-interval, then at the time when each corner is deepest.
   Probe seen = probe(patch, mid, b_);
   for (int attempt = 0; attempt < 2; ++attempt) {
@@ -306,9 +321,10 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
   if (seen.depth[deepest] > 0 && leaves(moved_along(patch, seen.out[deepest], e))) return true;
   if (reach < budget_.resolution * leeway) return fail(Answer::uncertain, patch.center(), depth, patch.triangle, s);
   // A ridge often lies along the motion: cut the patch there before halving the interval. The border of the exempt box
-  // is fixed to the patch: no interval is short enough for a patch across it.
+  // is fixed to the patch: no interval is short enough for a patch across it, so that it is cut once for all of them.
   const auto ridge = ridge_on(patch, seen);
-  if (i.s1 - i.s0 > 1 || (!ridge && !crosses_exempt(patch) && travel + 2 * margin > 0.3 * patch.longest_edge())) {
+  const bool shorter = i.s1 - i.s0 > 1 || (!ridge && travel + 2 * margin > 0.3 * patch.longest_edge());
+  if (shorter && !crosses_exempt(patch)) {
     later.push_back(id);
     return true;
   }
