@@ -5,8 +5,10 @@
 #include <queue>
 #include <utility>
 
+#include "dismantle/geometry/pair_check.h"
 #include "dismantle/geometry/swept_boxes.h"
 #include "dismantle/verification/interruptible_depth.h"
+#include "solid_motion.h"
 
 namespace dismantle {
 namespace {
@@ -35,12 +37,9 @@ class PairMotion {
   }
   /// How far a point of the moving part travels at most.
   double travel(double from, double to) const { return screw_travel(at(from), at(to), box_.center(), radius_); }
-  /// The same for the points of either part in the frame of the other, as long as they are in each other.
-  double travel_of_either(double from, double to) const {
-    return screw_travel(at(from), at(to), box_.center(), radius_ + travel(from, to));
-  }
   bool meets(double from, double to) const { return geometry::SweptBoxes({at(from), at(to)}, box_).meets(there_, 0); }
   std::size_t segments() const { return poses_.size() - 1; }
+  const std::vector<Pose>& poses() const { return poses_; }
 
  private:
   Aabb box_;
@@ -116,45 +115,42 @@ struct MotionDepthMeter::Impl {
   }
 
   /// The same outside the region of the initial overlap, where nothing is allowed (law 3 of the verifier). Points enter
-  /// and leave the region, so that their depth at two instants says nothing about those between. What is outside at any
-  /// instant of an interval is in its middle outside of a region that is smaller by half of the travel.
+  /// and leave the region, so that their depth at two instants says nothing about those between. The check of the
+  /// verifier proves that nothing is deeper than the deepest point so far, or says when to measure again.
   bool elsewhere(PartId part, const PairMotion& motion, const PlacedPart& other, const Aabb& region,
                  const MotionDepthOptions& options, const RunContext& context, std::optional<MotionDepth>& worst) {
-    std::uint64_t measured = 0;
+    const double border = assembly.initial_overlap(part, other.part) + verifier.options().max_penetration;
     const auto known = [&] { return worst ? worst->excess() : 0; };
-    const auto measure = [&](double u, const Aabb& without, double from) {
-      ++measured;
-      return deepest_elsewhere(body(part), motion.at(u), body(other.part), other.pose, without, std::max(0.0, from),
-                               0.25 * resolution(options, worst), context);
+    const auto raise_to = [&](double depth, const Eigen::Vector3d& point) {
+      if (depth <= known()) return false;
+      raise(worst, {part, other.part, depth, 0, point, false});
+      return true;
     };
-    std::priority_queue<Interval> open;
-    const auto add = [&](double from, double to) {
-      if (!motion.meets(from, to)) return;
-      const double u = 0.5 * (from + to), half = 0.5 * motion.travel_of_either(from, to);
-      const double settled = known() + resolution(options, worst), unsure = 0.25 * resolution(options, worst) + half;
-      Aabb smaller = region;
-      smaller.inflate(-half);
-      const double bound = std::min(measure(u, smaller, settled - unsure).depth + unsure, options.at_most);
-      if (bound <= settled) return;
-      const Penetration found = measure(u, region, known());
-      if (found.depth > known()) raise(worst, {part, other.part, found.depth, 0, found.point, false});
-      open.push({{from, 0}, {to, 0}, bound});
-    };
-    const auto must_end = [&] {
-      return context.should_stop() || measured > options.most_poses || (worst && worst->excess() > options.stop_above);
-    };
-    for (std::size_t k = 0; k < motion.segments() && !must_end(); ++k)
-      add(static_cast<double>(k), static_cast<double>(k + 1));
-    while (!open.empty()) {
-      const Interval top = open.top();
-      if (top.bound <= known() + resolution(options, worst)) return !must_end();
-      if (must_end()) return false;
-      open.pop();
-      const double u = 0.5 * (top.a.u + top.b.u);
-      add(top.a.u, u);
-      add(u, top.b.u);
-    }
-    return !must_end();
+    std::uint64_t measured = 0;
+    for (const geometry::Solid& x : verifier.solids(part))
+      for (const geometry::Solid& y : verifier.solids(other.part))
+        for (;;) {
+          const double sure = 0.5 * resolution(options, worst);
+          if (known() + 2 * sure >= options.at_most) return true;
+          const geometry::Limits limits{known() + sure, sure, &region, verifier.options().max_penetration, border};
+          const SolidMotion solids(motion.poses(), {other.pose}, x, y, limits.most());
+          if (!solids.forward.swept_box().overlaps(y.box)) break;
+          const VerifyBudget& counts = verifier.options().budget;
+          geometry::Budget budget{counts.tests + counts.tests_per_segment * motion.segments(),
+                                  counts.overlap_factor * counts.patches, 0, &context, counts.resolution};
+          const geometry::Finding found = geometry::check_pair(x, y, solids.forward, solids.backward(), limits, budget);
+          if (found.answer == geometry::Answer::certified) break;
+          if (context.should_stop() || known() > options.stop_above || ++measured > options.most_poses) return false;
+          const Penetration then = deepest_elsewhere(body(part), motion.at(found.time), body(other.part), other.pose,
+                                                     region, known(), 0.5 * sure, context);
+          bool higher = raise_to(then.depth, then.point);
+          if (found.answer == geometry::Answer::violated) {
+            const Pose place = found.of_second ? other.pose * y.frame : motion.at(found.time) * x.frame;
+            higher = raise_to(found.depth, place * found.point) || higher;
+          }
+          if (!higher) return false;
+        }
+    return !context.should_stop() && known() <= options.stop_above;
   }
 };
 
@@ -188,7 +184,9 @@ std::optional<MotionDepth> MotionDepthMeter::deepest(const std::vector<PartId>& 
       proved = impl_->pair(moving[i], motion, other, options, context,
                            valid_ones ? 0 : impl_->assembly.initial_overlap(moving[i], other.part), worst) &&
                proved;
-      const auto region = valid_ones ? std::nullopt : impl_->verifier.overlap_region(moving[i], other.part);
+      const auto region = valid_ones || options.deduct_everywhere
+                              ? std::nullopt
+                              : impl_->verifier.overlap_region(moving[i], other.part);
       if (region && !(worst && worst->excess() > options.stop_above))
         proved = impl_->elsewhere(moving[i], motion, other, *region, options, context, worst) && proved;
       if (worst && worst->excess() > options.stop_above) return worst;

@@ -12,6 +12,7 @@
 #include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/pair_check.h"
 #include "dismantle/stop_if_asked.h"
+#include "solid_motion.h"
 #include "verifier_impl.h"
 
 namespace dismantle {
@@ -30,33 +31,7 @@ std::uint64_t share_of(std::uint64_t count, double share) {
   return static_cast<std::uint64_t>(share * static_cast<double>(count));
 }
 
-std::vector<Pose> in_frame(const std::vector<Pose>& poses, const Pose& frame) {
-  std::vector<Pose> result;
-  result.reserve(poses.size());
-  for (const auto& p : poses) result.push_back(p * frame);
-  return result;
-}
-
 }  // namespace
-
-struct Verifier::Impl::Relative {
-  std::vector<Pose> poses_a, poses_b;
-  Aabb box_b;
-  verify::RelativeMotion forward;
-
-  /// `displaced`: how far displaced corners may leave the boxes.
-  Relative(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y, double displaced)
-      : poses_a(in_frame(a.poses, x.frame)),
-        poses_b(in_frame(b.poses, y.frame)),
-        box_b(grown(y.box, displaced)),
-        forward(poses_a, poses_b, grown(x.box, displaced)) {}
-  verify::RelativeMotion backward() const { return {poses_b, poses_a, box_b}; }
-
-  static Aabb grown(Aabb box, double by) {
-    box.inflate(by);
-    return box;
-  }
-};
 
 Violation Verifier::Impl::violation(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y,
                                     const Finding& found, double allowed, std::size_t segments) {
@@ -193,7 +168,7 @@ bool Verifier::Impl::check_elsewhere(const Actor& a, const Actor& b, const verif
                                      const Aabb& region, const RunContext& context, MotionCheck& result) const {
   const double border = overlap(a.part, b.part) + options.max_penetration;
   const verify::Limits limits{0, options.max_penetration, &region, options.max_penetration, border};
-  const Relative motion(a, b, x, y, limits.most());
+  const SolidMotion motion(a.poses, b.poses, x, y, limits.most());
   if (!motion.forward.swept_box().overlaps(y.box)) return true;
   verify::Budget budget = budget_for(motion.forward.segments(), true, true, &context);
   const Finding f = verify::check_pair(x, y, motion.forward, motion.backward(), limits, budget);
@@ -208,7 +183,7 @@ bool Verifier::Impl::check_elsewhere(const Actor& a, const Actor& b, const verif
 
 bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y,
                            double allowed, const RunContext& context, std::size_t& rung, MotionCheck& result) const {
-  const Relative motion(a, b, x, y, allowed + options.max_penetration);
+  const SolidMotion motion(a.poses, b.poses, x, y, allowed + options.max_penetration);
   const verify::RelativeMotion& forward = motion.forward;
   if (!forward.swept_box().overlaps(y.box)) return true;
   const verify::RelativeMotion backward = motion.backward();

@@ -29,9 +29,6 @@ struct Verifier::Impl {
     Actor(PartId id, std::vector<Pose> at, const Aabb& box) : part(id), poses(std::move(at)), swept(poses, box) {}
   };
 
-  /// How two solids move past each other, both ways.
-  struct Relative;
-
   Impl(const Assembly& assembly, VerifyOptions options, const RunContext& context);
 
   /// Initial overlap of the pair.
