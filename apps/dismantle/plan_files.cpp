@@ -52,10 +52,11 @@ void Saver::operator()(const Disassembly& so_far, const DisassemblyStep& newest)
     const std::lock_guard lock(mutex_);
     latest_.follow(so_far);
     const auto now = std::chrono::steady_clock::now();
-    if (!saved_once_ || every_step_ || now - saved_ >= std::chrono::seconds(1)) {
+    if (!saved_once_ || every_step_ || now >= next_save_) {
       write_file(file_, to_json(session_.plan_of(latest_, loaded_, {.part = part_})));
+      const auto saved = std::chrono::steady_clock::now();
       saved_once_ = true;
-      saved_ = now;
+      next_save_ = now + std::max<std::chrono::steady_clock::duration>(std::chrono::seconds(1), 20 * (saved - now));
     }
   }
   report(newest, so_far.steps().size());  // after saving, so that no reported step is lost

@@ -22,11 +22,12 @@ void remove_old_results(const std::filesystem::path& folder, const std::filesyst
 std::vector<std::string> write_all(const RunResult& result, const Assembly& assembly,
                                    const std::filesystem::path& folder, Console& console);
 
-/// Saves the growing plan at every step, or at most once per second (a crash then loses the steps of one second).
-/// Thread-safe.
+/// Saves the growing plan at every step; or at most once per second, and so seldom that saving, which takes longer for
+/// a longer plan, takes a twentieth of the time at most. A crash then loses the steps since. Thread-safe.
 class Saver {
  public:
-  /// The references must outlive this. @throws InputError, Error when the assembly cannot be planned with these settings.
+  /// The references must outlive this. @throws InputError, Error when the assembly cannot be planned with these
+  /// settings.
   Saver(std::filesystem::path file, const Session& session, const LoadedAssembly& loaded, std::string part,
         Console& console);
 
@@ -49,7 +50,7 @@ class Saver {
   mutable std::mutex mutex_;
   Disassembly latest_;
   bool saved_once_ = false;
-  std::chrono::steady_clock::time_point saved_;
+  std::chrono::steady_clock::time_point next_save_;
   bool every_step_ = false;
 };
 
