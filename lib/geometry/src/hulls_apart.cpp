@@ -1,6 +1,8 @@
 #include "dismantle/geometry/hulls_apart.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -25,9 +27,8 @@ HullsApart::Side::Side(std::vector<PlacedHull> placed) : parts(std::move(placed)
   std::erase_if(parts, [](const PlacedHull& p) { return p.corners->empty(); });
   begin.reserve(parts.size());
   for (const PlacedHull& p : parts) begin.push_back(p.pose.t);
-  boxes.resize(parts.size());
-  runs.resize((parts.size() + kRun - 1) / kRun);
-  most.resize(runs.size());
+  levels.emplace_back(parts.size());
+  while (levels.back().size() > kRun) levels.emplace_back((levels.back().size() + kRun - 1) / kRun);
   set_boxes();
 }
 
@@ -37,35 +38,47 @@ void HullsApart::Side::move_to(const Vec3& shift) {
 }
 
 void HullsApart::Side::set_boxes() {
-  std::fill(runs.begin(), runs.end(), Aabb{});
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const PlacedHull& p = parts[i];
-    boxes[i] = p.pose.q.vec().isZero(0) ? Aabb{p.box->lo + p.pose.t, p.box->hi + p.pose.t} : box_under(*p.box, p.pose);
-    runs[i / kRun].extend(boxes[i]);
+    levels[0][i] =
+        p.pose.q.vec().isZero(0) ? Aabb{p.box->lo + p.pose.t, p.box->hi + p.pose.t} : box_under(*p.box, p.pose);
+  }
+  for (std::size_t l = 1; l < levels.size(); ++l) {
+    std::fill(levels[l].begin(), levels[l].end(), Aabb{});
+    for (std::size_t i = 0; i < levels[l - 1].size(); ++i) levels[l][i / kRun].extend(levels[l - 1][i]);
   }
 }
 
-/// Calls visit(i) for the parts that may reach as far as `least`, which visits raise. The run with the largest bound
-/// comes first, so that few others remain.
-template <class Visit>
-void HullsApart::Side::visit_farthest(const Vec3& normal, const double& least, const Visit& visit) {
-  for (std::size_t r = 0; r < runs.size(); ++r) most[r] = top_of(runs[r], normal);
-  const auto visit_run = [&](std::size_t r) {
-    for (std::size_t i = r * kRun; i < std::min(parts.size(), (r + 1) * kRun); ++i)
-      if (top_of(boxes[i], normal) >= least) visit(i);
+/// Calls visit(i) for the parts, of those under kRun boxes of a level from `first` on, that may reach as far as
+/// `least`, which visits raise. `bound`: how far what is in a box may reach. The box with the largest bound comes
+/// first, so that few others remain.
+template <class Bound, class Visit>
+void HullsApart::Side::visit_farthest(std::size_t level, std::size_t first, const Bound& bound, const double& least,
+                                      const Visit& visit) const {
+  const std::vector<Aabb>& boxes = levels[level];
+  const std::size_t count = std::min(kRun, boxes.size() - first);
+  if (count == 0) return;
+  std::array<double, kRun> most{};
+  for (std::size_t k = 0; k < count; ++k) most[k] = bound(boxes[first + k]);
+  const auto descend = [&](std::size_t k) {
+    if (level == 0)
+      visit(first + k);
+    else
+      visit_farthest(level - 1, (first + k) * kRun, bound, least, visit);
   };
-  const auto first = static_cast<std::size_t>(std::max_element(most.begin(), most.end()) - most.begin());
-  visit_run(first);
-  for (std::size_t r = 0; r < runs.size(); ++r)
-    if (r != first && most[r] >= least) visit_run(r);
+  const auto farthest = static_cast<std::size_t>(std::max_element(most.begin(), most.begin() + count) - most.begin());
+  if (most[farthest] >= least) descend(farthest);
+  for (std::size_t k = 0; k < count; ++k)
+    if (k != farthest && most[k] >= least) descend(k);
 }
 
 /// The corner farthest along `normal`; among equals the first one, whatever the order of visits.
-Eigen::Vector3d HullsApart::Side::farthest(const Vec3& normal) {
+Eigen::Vector3d HullsApart::Side::farthest(const Vec3& normal) const {
   double top = -std::numeric_limits<double>::infinity();
   std::size_t part = 0;
   Vec3 corner = Vec3::Zero();
-  visit_farthest(normal, top, [&](std::size_t i) {
+  const auto bound = [&](const Aabb& box) { return top_of(box, normal); };
+  visit_farthest(levels.size() - 1, 0, bound, top, [&](std::size_t i) {
     double own = -std::numeric_limits<double>::infinity();
     Vec3 best = Vec3::Zero();
     for (const Vec3& c : *parts[i].corners) {
@@ -78,9 +91,10 @@ Eigen::Vector3d HullsApart::Side::farthest(const Vec3& normal) {
 }
 
 /// Largest extent of all vertices along `normal`: qhull omits vertices within rounding of a face.
-double HullsApart::Side::top(const Vec3& normal) {
+double HullsApart::Side::top(const Vec3& normal) const {
   double top = -std::numeric_limits<double>::infinity();
-  visit_farthest(normal, top, [&](std::size_t i) {
+  const auto bound = [&](const Aabb& box) { return top_of(box, normal); };
+  visit_farthest(levels.size() - 1, 0, bound, top, [&](std::size_t i) {
     const PlacedHull& p = parts[i];
     for (const Vec3& c : *p.corners) top = std::max(top, normal.dot(p.pose * c));
     if (geometry::top_of(*p.box, p.pose, normal) < top) return;  // no vertex of most parts can exceed it
@@ -92,19 +106,24 @@ double HullsApart::Side::top(const Vec3& normal) {
 /// The same along axis `k` or against it. For unrotated parts the box gives the same value: rounding is monotonic.
 double HullsApart::Side::top_along(Eigen::Index k, double sign) const {
   double top = -std::numeric_limits<double>::infinity();
-  for (const PlacedHull& p : parts) {
+  const auto bound = [&](const Aabb& box) {
+    const double end = sign > 0 ? box.hi[k] : -box.lo[k];
+    return end + kRounding * (std::abs(end) + box.size()[k]);
+  };
+  visit_farthest(levels.size() - 1, 0, bound, top, [&](std::size_t i) {
+    const PlacedHull& p = parts[i];
     if (p.pose.q.vec().isZero(0)) {
       top = std::max(top, sign > 0 ? p.box->hi[k] + p.pose.t[k] : -(p.box->lo[k] + p.pose.t[k]));
     } else {
       for (const Vec3& v : p.mesh->vertices) top = std::max(top, sign * (p.pose * v)[k]);
     }
-  }
+  });
   return top;
 }
 
 Aabb HullsApart::Side::box() const {
   Aabb all;
-  for (const Aabb& run : runs) all.extend(run);
+  for (const Aabb& run : levels.back()) all.extend(run);
   return all;
 }
 

@@ -30,25 +30,26 @@ class HullsApart {
 
  private:
   using Vec3 = Eigen::Vector3d;
-  /// Boxes around parts, and around runs of parts, so that finding the farthest point visits few parts.
+  /// Boxes around parts, around runs of parts, around runs of these, and so on, so that finding the farthest point
+  /// visits few parts.
   struct Side {
     std::vector<PlacedHull> parts;
-    std::vector<Vec3> begin;   // of the parts: initial translations
-    std::vector<Aabb> boxes;   // of the parts at their current poses
-    std::vector<Aabb> runs;    // of each kRun parts
-    std::vector<double> most;  // scratch, by run: upper bound of its extent
+    std::vector<Vec3> begin;                // of the parts: initial translations
+    std::vector<std::vector<Aabb>> levels;  // first the boxes of the parts at their current poses; each next one: of
+                                            // kRun of them
 
     explicit Side(std::vector<PlacedHull> placed);
     void move_to(const Vec3& shift);
     void set_boxes();
-    template <class Visit>
-    void visit_farthest(const Vec3& normal, const double& least, const Visit& visit);
-    Vec3 farthest(const Vec3& normal);
-    double top(const Vec3& normal);
+    template <class Bound, class Visit>
+    void visit_farthest(std::size_t level, std::size_t first, const Bound& bound, const double& least,
+                        const Visit& visit) const;
+    Vec3 farthest(const Vec3& normal) const;
+    double top(const Vec3& normal) const;
     double top_along(Eigen::Index axis, double sign) const;
     Aabb box() const;
   };
-  static constexpr std::size_t kRun = 16;  // parts under one box: about the square root of the largest assemblies
+  static constexpr std::size_t kRun = 16;  // boxes under one box
 
   Side group_, rest_;
 };
