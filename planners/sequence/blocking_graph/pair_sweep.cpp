@@ -10,7 +10,8 @@ PairSweep::PairSweep(const Assembly& assembly, PathOracle& oracle)
       tolerance_(oracle.tolerance()),
       own_(oracle.memo() == nullptr ? std::make_unique<PartMemo>() : nullptr),
       memo_(own_ ? *own_ : *oracle.memo()),
-      shapes_(geometry::find_congruent(assembly.parts, 1e-4 * tolerance_)) {
+      shapes_(geometry::find_congruent(assembly.parts, 1e-4 * tolerance_)),
+      hulls_(assembly.parts.size()) {
   for (const Part& part : assembly.parts) boxes_.push_back(part.mesh->box());
 }
 
@@ -19,7 +20,10 @@ const std::vector<geometry::Solid>& PairSweep::solids(PartId part) const {
 }
 
 const std::vector<Eigen::Vector3d>& PairSweep::hull(PartId part) const {
-  return geometry::hull_of(assembly_, part, memo_);
+  const std::vector<Eigen::Vector3d>* known = hulls_.at(part).load(std::memory_order_acquire);
+  if (known == nullptr)
+    hulls_[part].store(known = &geometry::hull_of(assembly_, part, memo_), std::memory_order_release);
+  return *known;
 }
 
 bool PairSweep::passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& path,
@@ -34,6 +38,7 @@ bool PairSweep::passes(PartId moving, PartId fixed, const Pose& fixed_at, const 
 
 std::vector<geometry::PlacedHull> PairSweep::hulls(const std::vector<PlacedPart>& parts) const {
   std::vector<geometry::PlacedHull> placed;
+  placed.reserve(parts.size());
   for (const PlacedPart& p : parts)
     placed.push_back({assembly_.parts[p.part].mesh.get(), &boxes_[p.part], &hull(p.part), p.pose});
   return placed;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -48,8 +49,9 @@ class PairSweep {
   double tolerance_;
   std::unique_ptr<PartMemo> own_;  // if the oracle shares none
   PartMemo& memo_;
-  std::vector<Aabb> boxes_;                       // by part
-  std::vector<geometry::ShapePlacement> shapes_;  // by part
+  std::vector<Aabb> boxes_;                                                      // by part
+  std::vector<geometry::ShapePlacement> shapes_;                                 // by part
+  mutable std::vector<std::atomic<const std::vector<Eigen::Vector3d>*>> hulls_;  // by part, those that were asked for
 };
 
 }  // namespace dismantle::blocking

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace dismantle::blocking {
@@ -35,7 +34,6 @@ Relations::Relations(const PairSweep& sweep, const Directions& directions, const
 
 Relations::Shadow Relations::scene(PartId part, std::size_t direction, const Eigen::Matrix3d& turn) const {
   Shadow s;
-  for (int k = 0; k < 3; ++k) s.lo[k] = std::numeric_limits<double>::infinity(), s.hi[k] = -s.lo[k];
   const Eigen::Matrix3d frame = frames_[direction] * turn;
   for (const Vec3& v : sweep_.hull(part)) {
     const Vec3 p = frame * v;
@@ -59,6 +57,16 @@ const Relations::Shadow& Relations::shadow(PartId part, std::size_t direction, s
 std::pair<double, double> Relations::extent(PartId part, std::size_t direction, std::size_t turn) const {
   const Shadow& s = shadow(part, direction, turn);
   return {s.lo[0], s.hi[0]};
+}
+
+Relations::Extents Relations::extents_at(PartId part, std::size_t direction, std::size_t turn, const Vec3& at) const {
+  Extents e = shadow(part, direction, turn);
+  const Vec3 t = frames_[direction] * at;
+  for (int k = 0; k < 3; ++k) {
+    e.lo[k] += t[k];
+    e.hi[k] += t[k];
+  }
+  return e;
 }
 
 /// "i along d past j" and "j along -d past i" are one question. Budgets and rounded offsets could make their answers

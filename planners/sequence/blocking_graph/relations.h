@@ -3,9 +3,11 @@
 /// blocking graphs of an assembly).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <span>
@@ -45,6 +47,8 @@ struct ShapeQuestion {
 /// A relation that does not block is a valid straight path past one part, except for the test of convex hulls at its
 /// end. Not thread-safe. Idle threads of an executor, if given, compute likely relations speculatively.
 class Relations {
+  static constexpr double kNothing = std::numeric_limits<double>::infinity();
+
  public:
   /// All references must outlive this; `executor` may be null.
   Relations(const PairSweep& sweep, const Directions& directions, const Orientations& orientations,
@@ -71,13 +75,20 @@ class Relations {
   double distance_past(const Pair& pair) const;
   /// Extent of a part along a direction, rotated but not translated.
   std::pair<double, double> extent(PartId part, std::size_t direction, std::size_t turn = 0) const;
+  /// Along the direction and along two across it.
+  struct Extents {
+    double lo[3] = {kNothing, kNothing, kNothing}, hi[3] = {-kNothing, -kNothing, -kNothing};
+    void extend(const Extents& other) {
+      for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], other.lo[k]), hi[k] = std::max(hi[k], other.hi[k]);
+    }
+  };
+  /// Those of a part, rotated and translated. far() is decided by the same numbers but for rounding.
+  Extents extents_at(PartId part, std::size_t direction, std::size_t turn, const Eigen::Vector3d& at) const;
   /// Number of relations that were asked for.
   std::uint64_t computed() const { return blocks_.size(); }
 
  private:
-  struct Shadow {
-    double lo[3], hi[3];  // along the direction and two across it
-  };
+  using Shadow = Extents;
   using Key = RelationKey;
   Key key_of(const Pair& pair) const;
   using Ahead = SpeculativeCache<ShapeQuestion, bool>;

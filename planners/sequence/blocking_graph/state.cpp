@@ -114,7 +114,19 @@ Subassemblies DisassemblyState::others(const GroupState& group, const Subassembl
 Attempt DisassemblyState::attempt_for(const GroupState& group, const Subassemblies& ids) const {
   Attempt attempt;
   for (const PartId id : parts_of(ids)) attempt.moving.push_back({id, poses_[id]});
-  for (const PartId id : parts_of(others(group, ids))) attempt.fixed.push_back({id, poses_[id]});
+  // Marked and counted, not sorted: this is asked for each step.
+  std::vector<char> rest(poses_.size(), 0);
+  std::size_t size = 0;
+  for (const SubassemblyId s : group.members)
+    for (const PartId id : parts_[s]) {
+      rest[id] = 1;
+      ++size;
+    }
+  for (const SubassemblyId s : ids)
+    for (const PartId id : parts_[s]) rest[id] = 0;
+  attempt.fixed.reserve(size);
+  for (PartId id = 0; id < rest.size(); ++id)
+    if (rest[id] != 0) attempt.fixed.push_back({id, poses_[id]});
   return attempt;
 }
 

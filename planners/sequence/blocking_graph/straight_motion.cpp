@@ -20,11 +20,13 @@ StraightMotion::StraightMotion(DisassemblyState& state, PathOracle& oracle, cons
       sweep_(sweep),
       directions_(std::move(directions)),
       relations_(sweep, directions_, state.orientations(), state.context().executor),
+      extents_(state, relations_, directions_.all.size()),
       blocker_(state.subassemblies()) {}
 
 void StraightMotion::on_group_changed(GroupState&, const GroupChange& change) {
   refused_.clear();
   keep_far_ends(change);
+  extents_.moved(change.moved);
   if (change.moves_remaining())  // remembered blockers may have moved away
     for (auto& known : blocker_) known.clear();
   else
@@ -53,9 +55,8 @@ std::vector<Pair> StraightMotion::pairs_of(SubassemblyId moving, SubassemblyId f
 
 Subassemblies StraightMotion::blockers(const GroupState& group, SubassemblyId id, std::size_t direction) {
   std::vector<Pair> pairs;
-  for (const SubassemblyId other : group.members)
-    if (other != id)
-      for (const Pair& pair : pairs_of(id, other, direction)) pairs.push_back(pair);
+  for (const SubassemblyId other : extents_.near(group.members, id, direction))
+    for (const Pair& pair : pairs_of(id, other, direction)) pairs.push_back(pair);
   relations_.compute(pairs);
   Subassemblies found;
   for (const Pair& pair : pairs)
@@ -199,8 +200,7 @@ std::pair<std::optional<SubassemblyId>, std::vector<Pair>> StraightMotion::exami
                                                                                    SubassemblyId unit,
                                                                                    std::size_t direction) const {
   std::vector<std::pair<double, Pair>> unknown;  // by gap
-  for (const SubassemblyId other : group.members) {
-    if (other == unit) continue;
+  for (const SubassemblyId other : extents_.near(group.members, unit, direction)) {
     for (const Pair& pair : pairs_of(unit, other, direction)) {
       if (relations_.known(pair)) {
         if (!relations_.known_to_block(pair)) continue;
@@ -322,17 +322,23 @@ std::vector<std::size_t> StraightMotion::free_directions(const GroupState& group
 
 double StraightMotion::length_out(const GroupState& group, const Subassemblies& ids, std::size_t direction,
                                   const Eigen::Vector3d& shift) const {
-  Attempt attempt = state_.attempt_for(group, ids);
-  for (PlacedPart& p : attempt.moving) p.pose.t += shift;
+  return length_out(group, ids, direction, state_.attempt_for(group, ids), shift);
+}
+
+/// The same for the attempt to remove `ids`.
+double StraightMotion::length_out(const GroupState& group, const Subassemblies& ids, std::size_t direction,
+                                  const Attempt& attempt, const Eigen::Vector3d& shift) const {
+  std::vector<PlacedPart> moving = attempt.moving;
+  for (PlacedPart& p : moving) p.pose.t += shift;
   // Ends one tolerance further: poses are rounded when they are written.
   const double most = path_length(group, ids, direction, shift) + 0.1 * sweep_.tolerance();
-  return sweep_.distance_apart(attempt.moving, attempt.fixed, directions_.all[direction], most) + sweep_.tolerance();
+  return sweep_.distance_apart(moving, attempt.fixed, directions_.all[direction], most) + sweep_.tolerance();
 }
 
 bool StraightMotion::leave(GroupState& group, const Subassemblies& ids, std::size_t direction) {
   const Attempt attempt = state_.attempt_for(group, ids);
   const Eigen::Vector3d& d = directions_.all[direction];
-  const double length = length_out(group, ids, direction);
+  const double length = length_out(group, ids, direction, attempt, Eigen::Vector3d::Zero());
   Path path(2);
   for (const auto& p : attempt.moving) {
     path[0].push_back(p.pose);

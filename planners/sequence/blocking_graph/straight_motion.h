@@ -15,6 +15,7 @@
 #include "blocking_graph/directions.h"
 #include "blocking_graph/relations.h"
 #include "blocking_graph/state.h"
+#include "blocking_graph/unit_extents.h"
 
 namespace dismantle::blocking {
 
@@ -101,12 +102,15 @@ class StraightMotion final : public GroupListener {
   void hint(const GroupState& group, std::span<const std::size_t> directions, SubassemblyId id,
             std::span<const SubassemblyId> next);
   void hint_after_removal(const GroupState& group, const Subassemblies& ids);
+  double length_out(const GroupState& group, const Subassemblies& ids, std::size_t direction, const Attempt& attempt,
+                    const Eigen::Vector3d& shift) const;
 
   DisassemblyState& state_;
   PathOracle& oracle_;
   const PairSweep& sweep_;
   Directions directions_;
   Relations relations_;
+  mutable UnitExtents extents_;
   std::vector<std::map<std::size_t, SubassemblyId>> blocker_;      // by subassembly, by direction: one blocker
   std::set<std::pair<std::vector<PartId>, std::size_t>> refused_;  // since the last change
   struct {

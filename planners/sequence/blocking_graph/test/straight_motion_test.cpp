@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <deque>
 #include <string>
 #include <utility>
@@ -98,6 +99,54 @@ TEST(StraightMotion, DirectionsAreThoseOfOneThatKnowsNothing) {
       }
     }
   }
+}
+
+/// What the filter leaves out is far by Relations::far(), whatever has moved since; and it leaves most of that out.
+TEST(UnitExtents, LeaveOutOnlyWhatIsFar) {
+  Rng rng(9);
+  std::size_t far = 0, left_in = 0, near = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Assembly assembly = any_boxes(rng);
+    AcceptingOracle oracle;
+    Observer observer;
+    const Constraints constraints;
+    RunContext context;
+    const Objective objective;
+    const SequenceQuery query{assembly, whole_assembly(assembly), constraints, objective};
+    DisassemblyState state(query, {}, PartOrder::as_given, observer, context);
+    const PairSweep sweep(assembly, oracle);
+    const Directions directions = directions_of(assembly);
+    const Relations relations(sweep, directions, state.orientations(), nullptr);
+    UnitExtents extents(state, relations, directions.all.size());
+    const Subassemblies all = state.waiting().front().members;
+    for (int move = 0; move < 6; ++move) {
+      for (const SubassemblyId a : all)
+        for (std::size_t d = 0; d < directions.all.size(); ++d) {
+          const Subassemblies found = extents.near(all, a, d);
+          std::vector<bool> is_found(all.size(), false);
+          for (const SubassemblyId b : found) is_found[b] = true;
+          EXPECT_TRUE(std::is_sorted(found.begin(), found.end()) && !is_found[a]);
+          for (const SubassemblyId b : all) {
+            if (a == b) continue;
+            const PartId p = state.part_of(a), q = state.part_of(b);
+            const Pair pair{p, q, d, state.pose(p).t - state.pose(q).t, state.orientation(p), state.orientation(q)};
+            const bool is_far = relations.far(pair);
+            EXPECT_TRUE(is_far || is_found[b]) << trial << " " << move;
+            (is_far ? far : near)++;
+            left_in += is_far && is_found[b] ? 1 : 0;
+          }
+        }
+      const SubassemblyId moved = all[rng.below(all.size())];
+      const Eigen::Vector3d axis = Eigen::Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), 1).normalized();
+      state.set_pose(state.part_of(moved),
+                     {{rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(-9, 9)},
+                      Eigen::Quaterniond(Eigen::AngleAxisd(rng.below(2) == 0 ? 0 : rng.uniform(0, 6), axis))});
+      if (move % 2 == 0) extents.moved({moved});  // otherwise it finds out by itself
+    }
+  }
+  EXPECT_GT(near, 500u);
+  EXPECT_GT(far, 1000u);
+  EXPECT_LT(left_in, far / 1000);
 }
 
 }  // namespace
