@@ -293,8 +293,21 @@ MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std:
     for (const auto& row : path) poses.push_back({row[i].t, row[i].q.normalized()});
     movers.emplace_back(moving[i], std::move(poses), impl_->bodies.at(moving[i]).box);
   }
+  std::vector<Aabb> reach;  // of the movers
+  for (const Impl::Actor& mover : movers) {
+    reach.push_back(mover.swept.whole());
+    reach.back().inflate(rounding_of(mover.swept.whole()));
+  }
+  // Most parts are far from all of them, as the first box of near() below says; of these no actor is made.
+  const auto is_far = [&](const PlacedPart& s) {
+    if (!s.pose.q.vec().isZero(0)) return false;
+    const Aabb& own = impl_->bodies.at(s.part).box;
+    const Aabb there{own.lo + s.pose.t, own.hi + s.pose.t};
+    return std::none_of(reach.begin(), reach.end(), [&](const Aabb& box) { return box.overlaps(there); });
+  };
   for (const auto& s : fixed)
-    others.emplace_back(s.part, std::vector<Pose>{{s.pose.t, s.pose.q.normalized()}}, impl_->bodies.at(s.part).box);
+    if (!is_far(s))
+      others.emplace_back(s.part, std::vector<Pose>{{s.pose.t, s.pose.q.normalized()}}, impl_->bodies.at(s.part).box);
   const auto near = [](const Impl::Actor& a, const Impl::Actor& b) {
     return a.swept.meets(b.swept, rounding_of(a.swept.whole()));
   };
@@ -327,6 +340,7 @@ verify::HullsApart Verifier::Impl::hulls_of(const std::vector<PlacedPart>& group
                                             const std::vector<PlacedPart>& rest) const {
   const auto placed = [&](const std::vector<PlacedPart>& parts) {
     std::vector<verify::PlacedHull> hulls;
+    hulls.reserve(parts.size());
     for (const auto& p : parts) {
       const Body& body = bodies.at(p.part);
       hulls.push_back({meshes[p.part].get(), &body.box, &body.corners, p.pose});
