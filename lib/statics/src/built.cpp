@@ -45,19 +45,48 @@ BuiltPiles::BuiltPiles(const Assembly& assembly, StabilityOptions options) : opt
   }
   size_ = count == 0 ? 1 : all.size().norm();
   shapes_.resize(count);
+  find_neighbours(assembly);
+}
+
+/// Pairs whose boxes are near, by a sweep along the first axis, and those of one unit.
+void BuiltPiles::find_neighbours(const Assembly& assembly) {
+  const auto count = static_cast<PartId>(meshes_.size());
   neighbours_.resize(count);
-  for (PartId a = 0; a < count; ++a)
-    for (PartId b = a + 1; b < count; ++b) {
-      const double gap = kPlay * options_.touching * std::min(boxes_[a].size().norm(), boxes_[b].size().norm());
-      Aabb near = boxes_[a];
-      near.inflate(gap);
-      if (!one_unit(a, b) && !near.overlaps(boxes_[b])) continue;
-      const bool bond = one_unit(a, b) || is_bonded(assembly, a, b, gap / (2 * kPlay));
-      const InitialOverlap* overlap = assembly.overlap_of(a, b);
-      const double depth = overlap == nullptr ? 0 : overlap->depth;
-      neighbours_[a].push_back({b, bond, depth});
-      neighbours_[b].push_back({a, bond, depth});
+  std::vector<double> sizes;
+  std::vector<std::pair<double, PartId>> begins;
+  std::map<PartId, std::vector<PartId>> of_unit;
+  for (PartId p = 0; p < count; ++p) {
+    sizes.push_back(boxes_[p].size().norm());
+    // No pair is near beyond the gap for the larger of the two, which each part may be.
+    begins.emplace_back(boxes_[p].lo.x() - kPlay * options_.touching * sizes[p], p);
+    if (units_[p]) of_unit[*units_[p]].push_back(p);
+  }
+  std::sort(begins.begin(), begins.end());
+  std::vector<std::pair<PartId, PartId>> pairs;
+  std::vector<PartId> open;  // that end beyond where the sweep is
+  for (const auto& [begin, a] : begins) {
+    std::erase_if(open,
+                  [&, at = begin](PartId b) { return boxes_[b].hi.x() + kPlay * options_.touching * sizes[b] < at; });
+    for (const PartId b : open) {
+      Aabb near = boxes_[std::min(a, b)];
+      near.inflate(kPlay * options_.touching * std::min(sizes[a], sizes[b]));
+      if (near.overlaps(boxes_[std::max(a, b)])) pairs.emplace_back(std::min(a, b), std::max(a, b));
     }
+    open.push_back(a);
+  }
+  for (const auto& [unit, members] : of_unit)
+    for (std::size_t i = 0; i < members.size(); ++i)
+      for (std::size_t j = i + 1; j < members.size(); ++j) pairs.emplace_back(members[i], members[j]);
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  for (const auto& [a, b] : pairs) {
+    const double gap = kPlay * options_.touching * std::min(sizes[a], sizes[b]);
+    const bool bond = one_unit(a, b) || is_bonded(assembly, a, b, gap / (2 * kPlay));
+    const InitialOverlap* overlap = assembly.overlap_of(a, b);
+    const double depth = overlap == nullptr ? 0 : overlap->depth;
+    neighbours_[a].push_back({b, bond, depth});
+    neighbours_[b].push_back({a, bond, depth});
+  }
 }
 
 BuiltPiles::~BuiltPiles() = default;
@@ -258,8 +287,9 @@ std::size_t BuiltPiles::unsupported(std::span<const PlacedPart> parts, std::span
   for (const PlacedPart& p : parts) {
     there[p.part] = &p;
     lowest = std::min(lowest, height(p, up));
+    if (!in_place || p.pose == parts.front().pose) continue;
     const Pose r = relative(p, parts.front());
-    in_place = in_place && r.t.norm() <= kSamePose * size_ && r.q.vec().norm() <= kSamePose;
+    in_place = r.t.norm() <= kSamePose * size_ && r.q.vec().norm() <= kSamePose;
   }
   std::vector<bool> seen(meshes_.size(), false);
   std::size_t count = 0;
@@ -277,13 +307,21 @@ std::size_t BuiltPiles::unsupported(std::span<const PlacedPart> parts, std::span
         seen[n.part] = true;
         body.push_back(*other);
       }
-    std::sort(body.begin(), body.end(), [](const PlacedPart& x, const PlacedPart& y) { return x.part < y.part; });
-    std::vector<bool> close(meshes_.size(), !in_place);
-    for (const PlacedPart& p : body)
-      for (const Neighbour& n : neighbours_[p.part]) close[n.part] = true;
-    for (const PlacedPart& p : body) close[p.part] = false;
-    for (const PlacedPart& p : parts)
-      if (close[p.part]) near.push_back(p);
+    const auto by_part = [](const PlacedPart& x, const PlacedPart& y) { return x.part < y.part; };
+    std::sort(body.begin(), body.end(), by_part);
+    // What may touch it, in the order of `parts`.
+    std::vector<const PlacedPart*> close;
+    if (in_place) {
+      for (const PlacedPart& p : body)
+        for (const Neighbour& n : neighbours_[p.part])
+          if (there[n.part] != nullptr) close.push_back(there[n.part]);
+      std::sort(close.begin(), close.end());
+      close.erase(std::unique(close.begin(), close.end()), close.end());
+    } else {
+      for (const PlacedPart& p : parts) close.push_back(&p);
+    }
+    for (const PlacedPart* p : close)
+      if (!std::binary_search(body.begin(), body.end(), *p, by_part)) near.push_back(*p);
     double own = std::numeric_limits<double>::infinity();
     for (const PlacedPart& p : body) own = std::min(own, height(p, up));
     double above = std::max(0.0, own - lowest);

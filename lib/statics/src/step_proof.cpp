@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 namespace dismantle::statics {
@@ -20,9 +21,16 @@ std::optional<double> number_in(const Numbers& numbers, const std::string& name)
 }  // namespace
 
 std::vector<PlacedPart> joined(std::span<const PlacedPart> a, std::span<const PlacedPart> b) {
-  std::vector<PlacedPart> all(a.begin(), a.end());
+  const auto by_part = [](const PlacedPart& x, const PlacedPart& y) { return x.part < y.part; };
+  std::vector<PlacedPart> all;
+  all.reserve(a.size() + b.size());
+  if (std::is_sorted(a.begin(), a.end(), by_part) && std::is_sorted(b.begin(), b.end(), by_part)) {  // as a rule
+    std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all), by_part);
+    return all;
+  }
+  all.assign(a.begin(), a.end());
   all.insert(all.end(), b.begin(), b.end());
-  std::sort(all.begin(), all.end(), [](const PlacedPart& x, const PlacedPart& y) { return x.part < y.part; });
+  std::sort(all.begin(), all.end(), by_part);
   return all;
 }
 

@@ -68,6 +68,7 @@ class DISMANTLE_API BuiltPiles {
     bool bonded;
     double overlap;  // depth, as assembled
   };
+  void find_neighbours(const Assembly& assembly);
   const Neighbour* neighbour(PartId a, PartId b) const;
   const Shape& shape(PartId part) const;
   double height(const PlacedPart& part, const Eigen::Vector3d& up) const;
@@ -92,7 +93,7 @@ class DISMANTLE_API BuiltPiles {
   std::vector<Aabb> boxes_;
   std::vector<double> volumes_;
   std::vector<bool> fasteners_;
-  std::vector<std::optional<PartId>> units_;  // Part::unit
+  std::vector<std::optional<PartId>> units_;        // Part::unit
   std::vector<std::vector<Neighbour>> neighbours_;  // by part: those whose boxes are near, ascending
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<const Shape>> shapes_;
