@@ -97,45 +97,71 @@ double cost_of(Problem& problem, const Task& task, const std::vector<VariantId>&
   return state.cost + settled(problem, state, task.next);
 }
 
-/// Each unit that has to leave alone costs at least its cheapest variant. Such units of which no two have a common
-/// class need as many changes of the class as there are, less one.
-double lower_bound(Problem& problem, const Task& task, const UnitSet& left, VariantId last) {
-  double sum = last == kNone ? 0 : problem.least(last), most = 0;
-  if (task.end == End::target) return sum + (is_done(task, left) ? 0 : task.bound->of(left));
-  std::vector<std::uint64_t> classes;
-  std::size_t may_stay = task.end == End::one_left ? 1 : 0;
-  const double change = problem.change();
-  candidates(task, left).each([&](std::size_t u) {
-    if (!problem.leaves_alone(u)) return;
+/// What lower_bound() sums up: for each unit, which does not change during a search.
+class BoundTerms {
+ public:
+  explicit BoundTerms(Problem& problem) : problem_(problem), change_(problem.change()) {
+    for (std::size_t u = 0; u < problem.units(); ++u) {
+      Term term;
+      if (problem.leaves_alone(u))
+        for (const VariantId v : problem.variants_of(u)) {
+          term.least = std::min(term.least, problem.least(v));
+          term.own |= problem.classes(v);
+        }
+      counts_.push_back(term.least < kForbidden);  // else it can only be the one that stays
+      if (counts_.back() && term.own != 0) by_classes_.push_back(u);
+      terms_.push_back(term);
+    }
+    std::sort(by_classes_.begin(), by_classes_.end(), [&](std::size_t a, std::size_t b) {
+      return std::pair(std::popcount(terms_[a].own), terms_[a].own) <
+             std::pair(std::popcount(terms_[b].own), terms_[b].own);
+    });
+  }
+
+  /// Each unit that has to leave alone costs at least its cheapest variant. Such units of which no two have a common
+  /// class need as many changes of the class as there are, less one.
+  double bound(const Task& task, const UnitSet& left, VariantId last) const {
+    double sum = last == kNone ? 0 : problem_.least(last), most = 0;
+    if (task.end == End::target) return sum + (is_done(task, left) ? 0 : task.bound->of(left));
+    const std::size_t may_stay = task.end == End::one_left ? 1 : 0;
+    const UnitSet units = candidates(task, left);
+    units.each([&](std::size_t u) {
+      if (!counts_[u]) return;
+      sum += terms_[u].least;
+      most = std::max(most, terms_[u].least);
+    });
+    if (task.end == End::one_left) sum -= most;
+    if (change_ <= 0) return sum;
+    std::uint64_t taken = last == kNone ? 0 : problem_.classes(last);
+    std::size_t apart = last == kNone ? 0 : 1;
+    for (const std::size_t u : by_classes_)
+      if ((terms_[u].own & taken) == 0 && units.contains(u)) {
+        taken |= terms_[u].own;
+        ++apart;
+      }
+    const std::size_t sure = apart > may_stay + 1 ? apart - may_stay - 1 : 0;
+    return sum + static_cast<double>(sure) * change_;
+  }
+
+ private:
+  struct Term {
     double least = kForbidden;
     std::uint64_t own = 0;
-    for (const VariantId v : problem.variants_of(u)) {
-      least = std::min(least, problem.least(v));
-      own |= problem.classes(v);
-    }
-    if (least == kForbidden) return;  // it can only be the one that stays
-    sum += least;
-    most = std::max(most, least);
-    classes.push_back(own);
-  });
-  if (task.end == End::one_left) sum -= most;
-  if (change <= 0) return sum;
-  std::sort(classes.begin(), classes.end(), [](std::uint64_t a, std::uint64_t b) {
-    return std::pair(std::popcount(a), a) < std::pair(std::popcount(b), b);
-  });
-  std::uint64_t taken = last == kNone ? 0 : problem.classes(last);
-  std::size_t apart = last == kNone ? 0 : 1;
-  for (const std::uint64_t own : classes)
-    if (own != 0 && (own & taken) == 0) {
-      taken |= own;
-      ++apart;
-    }
-  const std::size_t sure = apart > may_stay + 1 ? apart - may_stay - 1 : 0;
-  return sum + static_cast<double>(sure) * change;
+  };
+  Problem& problem_;
+  double change_;
+  std::vector<Term> terms_;  // by unit
+  std::vector<char> counts_;
+  std::vector<std::size_t> by_classes_;  // units, those with few classes first
+};
+
+double lower_bound(Problem& problem, const Task& task, const UnitSet& left, VariantId last) {
+  return BoundTerms(problem).bound(task, left, last);
 }
 
 BestFirst best_first(Problem& problem, const Task& task, double known, Effort& effort) {
   BestFirst answer;
+  const BoundTerms terms(problem);
   std::vector<Node> nodes{{task.start, task.last, 0, 0}};
   std::unordered_map<Key, double, KeyHash> seen;
   // States are told apart by their last step if costs depend on it.
@@ -144,7 +170,7 @@ BestFirst best_first(Problem& problem, const Task& task, double known, Effort& e
   // Lowest bound first; then the longest order, then the one found first.
   using Entry = std::tuple<double, std::size_t, std::size_t, bool>;  // bound, units left, node, is it finished?
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  open.emplace(lower_bound(problem, task, task.start, task.last), task.start.size(), 0, false);
+  open.emplace(terms.bound(task, task.start, task.last), task.start.size(), 0, false);
   while (!open.empty()) {
     const auto [f, size, at, finished] = open.top();
     if (f >= known - kSame) break;
@@ -171,7 +197,7 @@ BestFirst best_first(Problem& problem, const Task& task, double known, Effort& e
           return;
         }
         Node next{node.left - problem.leaving(v), v, node.cost + settled(problem, node, v), at};
-        const double bound = std::max(f, next.cost + lower_bound(problem, task, next.left, v));
+        const double bound = std::max(f, next.cost + terms.bound(task, next.left, v));
         if (bound >= known - kSame) continue;
         const double so_far = cost_to(next);
         const auto [entry, is_new] = seen.try_emplace(key_of(next), so_far);
@@ -193,7 +219,8 @@ BestFirst best_first(Problem& problem, const Task& task, double known, Effort& e
 
 namespace {
 
-constexpr std::size_t kAhead = 4;  // times the width of the beam: candidates of which the next step is looked at
+constexpr std::size_t kAhead = 4;     // times the width of the beam: candidates of which the next step is looked at
+constexpr std::uint64_t kFewest = 4;  // successors of a node
 
 struct Candidate {
   Node node;
@@ -238,7 +265,10 @@ double ahead(Problem& problem, const Task& task, const Node& node) {
 
 }  // namespace
 
+std::uint64_t least_effort(std::size_t units) { return units * (2 * kFewest + kAhead); }
+
 Order beam(Problem& problem, const Task& task, Effort& effort) {
+  const BoundTerms terms(problem);
   std::vector<Node> nodes{{task.start, task.last, 0, 0}};
   std::map<std::size_t, std::vector<std::size_t>, std::greater<>> layers{{task.start.size(), {0}}};
   Order best;
@@ -246,7 +276,7 @@ Order beam(Problem& problem, const Task& task, Effort& effort) {
     const std::vector<std::size_t> layer = std::move(layers.begin()->second);
     // What is left of the effort is divided among the layers to come: in each, `width` nodes with `most` successors.
     const std::uint64_t each = effort.left / std::max<std::uint64_t>(1, layers.begin()->first);
-    const std::uint64_t most = std::clamp<std::uint64_t>(each / 8, 4, 48);
+    const std::uint64_t most = std::clamp<std::uint64_t>(each / 8, kFewest, 48);
     const std::size_t width = static_cast<std::size_t>(std::clamp<std::uint64_t>(each / (2 * most + kAhead), 1, 64));
     layers.erase(layers.begin());
     std::unordered_map<Key, std::size_t, KeyHash> seen;
@@ -261,7 +291,7 @@ Order beam(Problem& problem, const Task& task, Effort& effort) {
         if (!effort.spend(2)) return best;
         Candidate c{{nodes[at].left - problem.leaving(v), v, nodes[at].cost + settled(problem, nodes[at], v), at}};
         const double alone = problem.cost(v, c.node.left, kNone);
-        c.score = c.node.cost + std::max(0.0, lower_bound(problem, task, c.node.left, v) - problem.least(v)) + alone;
+        c.score = c.node.cost + std::max(0.0, terms.bound(task, c.node.left, v) - problem.least(v)) + alone;
         if (!(c.score < kForbidden)) continue;
         const auto [entry, is_new] = seen.try_emplace({c.node.left, v}, found.size());
         if (is_new)

@@ -37,6 +37,8 @@ namespace {
 
 /// Units up to which A* often ends. Beyond, it is for the bound of the cost only.
 constexpr std::size_t kMostForExact = 24;
+/// Of the effort: what the first, wider beam gets for a plan of one segment. Beyond kMostForExact, A* has a tenth.
+constexpr double kWider = 2.0 / 3, kOfBeam = kWider * 0.9 / 2;
 
 /// Passes removals on, and keeps them.
 class Keeper final : public SequenceObserver {
@@ -114,7 +116,7 @@ class Rewriting {
     // The search estimates what the checks say. Two searches of different width give two orders, and the checks choose.
     // Where they like neither, the estimate has misled the search: a wider one follows, if it has a chance to end.
     double bound = 0;
-    for (const double share : {2.0 / 3, 1.0 / 3, 3.0}) {
+    for (const double share : {kWider, 1 - kWider, 3.0}) {
       if (share > 1 && (kept || after_ < kForbidden || !worth_it_ || plan_.size() > kMostForExact)) break;
       complete_ = true;
       const Effort own{static_cast<std::uint64_t>(share * static_cast<double>(effort_.left)), effort_.stop};
@@ -338,6 +340,14 @@ SequenceResult BestOrder::plan(const SequenceQuery& query, PathOracle& oracle, S
   const bool to_target = query.constraints.target.has_value();
   if (query.objective.empty() || context.should_stop() || result.outcome == Outcome::crashed) return result;
   if (!to_target && result.removals.size() < 2) return result;
+  if (!to_target && result.removals.size() > kMostForExact &&
+      static_cast<double>(order::least_effort(result.removals.size())) >
+          kOfBeam * static_cast<double>(params_.effort)) {
+    context.log(LogLevel::info, "the order is not improved: best_order has too little effort for " +
+                                    std::to_string(result.removals.size()) + " steps");
+    result.counts["order_effort"] = result.counts["order_saved"] = 0;
+    return result;
+  }
   // The checks may depend on what the inner planner has announced only, which is what was recorded.
   std::vector<Removal> plan;
   for (const auto& [removal, left] : keeper.all) plan.push_back(removal);

@@ -237,8 +237,28 @@ bool Segment::may_leave(VariantId v, const UnitSet& present) {
     held = held || (!needs_gone_[u].empty() && needs_gone_[u].intersects(present - move.units));
   });
   if (held) return false;
-  const UnitSet free = move.free;  // is_in_the_way() adds to it
-  return UnitSet::all_of_rest(present, free, move.units, [&](std::size_t u) { return !is_in_the_way(move, u); });
+  if (!move.knows_far && relations_ && move.motion.direction && move.units.size() == 1) {
+    // One pass over numbers for what Relations::far() would say of most pairs, one by one.
+    const std::size_t d = *move.motion.direction;
+    extents_.resize(scene_.directions.all.size());
+    if (extents_[d].empty()) {
+      extents_[d].resize(units());
+      for (std::size_t u = 0; u < units(); ++u) {
+        blocking::Relations::Extents all;
+        for (const PlacedPart& p : parts_[u])
+          all.extend(relations_->extents_at(p.part, d, orientations_.number_of(p.pose.q), p.pose.t));
+        extents_[d].set(u, all);
+      }
+    }
+    std::size_t own = 0;
+    while (!move.units.contains(own)) ++own;
+    const blocking::Relations::Extents reach = extents_[d].reach_of(own);
+    for (std::size_t u = 0; u < units(); ++u)
+      if (u != own && !extents_[d].may_meet(reach, u) && !move.blocking.contains(u)) move.free.insert(u);
+    move.knows_far = true;
+  }
+  // is_in_the_way() adds no unit to `free` but the one that is asked about.
+  return UnitSet::all_of_rest(present, move.free, move.units, [&](std::size_t u) { return !is_in_the_way(move, u); });
 }
 
 const UnitSet& Segment::blocking(VariantId v) {

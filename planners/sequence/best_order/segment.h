@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "blocking_graph/relations.h"
+#include "blocking_graph/unit_extents.h"
 #include "dismantle/ordering/order_search.h"
 #include "dismantle/sequence_planner.h"
 
@@ -94,6 +95,7 @@ class Segment final : public Problem {
     UnitSet needs;                        ///< as blocking(): these, and those that have to leave before
     std::vector<std::vector<Pose>> path;  ///< of a planned step: until it is apart from all of the start
     std::size_t course = 0;               ///< number of the direction of insertion
+    bool knows_far = false;               ///< `free` has all units that it passes at a distance
   };
   struct Variant {
     std::size_t move = 0, up = 0;
@@ -150,6 +152,8 @@ class Segment final : public Problem {
   bool exact_ = true, unsure_ = false;
   blocking::Orientations orientations_;
   std::unique_ptr<blocking::Relations> relations_;
+  std::vector<blocking::ExtentTable> extents_;                 // by direction
+  std::vector<std::pair<PlacedPart, std::size_t>> with_unit_;  // the parts, ascending, each with its unit
   UnitSet present_of_;
   std::vector<PlacedPart> present_;
 };

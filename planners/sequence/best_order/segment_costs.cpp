@@ -113,9 +113,14 @@ const std::vector<PlacedPart>& Segment::present(const UnitSet& rest) {
   if (!(rest == present_of_)) {
     present_of_ = rest;
     present_.clear();
-    rest.each([&](std::size_t u) { present_.insert(present_.end(), parts_[u].begin(), parts_[u].end()); });
-    std::sort(present_.begin(), present_.end(),
-              [](const PlacedPart& a, const PlacedPart& b) { return a.part < b.part; });
+    if (with_unit_.empty()) {
+      for (std::size_t u = 0; u < units(); ++u)
+        for (const PlacedPart& p : parts_[u]) with_unit_.emplace_back(p, u);
+      std::sort(with_unit_.begin(), with_unit_.end(),
+                [](const auto& a, const auto& b) { return a.first.part < b.first.part; });
+    }
+    for (const auto& [part, unit] : with_unit_)
+      if (rest.contains(unit)) present_.push_back(part);
   }
   return present_;
 }

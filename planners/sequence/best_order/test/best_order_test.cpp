@@ -196,6 +196,33 @@ TEST(BestOrder, KeepsTheInnerPlanWithoutEffort) {
   EXPECT_EQ(none.sequence_counts.at("order_saved"), 0);
 }
 
+/// A search that cannot end is not begun: what is judged then grows with the steps, not with the effort.
+TEST(BestOrder, ManyStepsAreLeftAsTheyAreWhereTheEffortDoesNotSuffice) {
+  std::size_t judged = 0;
+  class Counted final : public StepCheck {
+   public:
+    explicit Counted(std::size_t& count) : count_(count) {}
+    StepCheckTraits traits() const noexcept override { return {}; }
+    StepVerdict judge(const StepQuestion&, const RunContext&) const override {
+      ++count_;
+      return {.cost = 1};
+    }
+
+   private:
+    std::size_t& count_;
+  };
+  const Objective objective{{{"counted", std::make_shared<Counted>(judged), 1, false}}};
+  const Assembly assembly = fake::row(40);
+  const RunResult enough = plan_of(assembly, objective, std::make_shared<fake::InTurn>(), 4000);
+  EXPECT_GT(enough.sequence_counts.at("order_effort"), 0);
+  EXPECT_GT(judged, 200u);
+  judged = 0;
+  const RunResult little = plan_of(assembly, objective, std::make_shared<fake::InTurn>(), 1000);
+  EXPECT_EQ(little.sequence_counts.at("order_effort"), 0);
+  EXPECT_EQ(judged, 39u) << "once for the plan file";
+  EXPECT_EQ(little.plan.status, PlanStatus::complete);
+}
+
 TEST(BestOrder, ACheckThatThrowsLeavesThePlanAsItIs) {
   class Throws final : public StepCheck {
    public:

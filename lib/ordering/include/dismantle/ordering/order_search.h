@@ -114,6 +114,8 @@ TargetOrder order_to(Problem& problem, const UnitSet& start, std::size_t target,
 
 /// Beam search, as wide as the effort allows.
 Order beam(Problem& problem, const Task& task, Effort& effort);
+/// With less effort, a beam for so many units that leave one after the other may end before it has an order.
+std::uint64_t least_effort(std::size_t units);
 
 /// Looks for cheaper orders of some steps in a row, until none is found or the effort is spent.
 void improve(Problem& problem, const Task& task, Order& order, Effort& effort);
