@@ -25,11 +25,10 @@ void canonicalise(std::vector<PlacedPart>& parts, std::vector<bool>& seen) {
     seen[p.part] = true;
     if (!p.pose.t.allFinite() || !p.pose.q.coeffs().allFinite())
       throw std::invalid_argument(fmt::format("pose of part {} is not finite", p.part));
-    if (has_wrong_sign(p.pose.q)) p.pose.q.coeffs() = -p.pose.q.coeffs();
-    p.pose.q.coeffs().array() += 0.0;  // -0 becomes +0
-    p.pose.t.array() += 0.0;
+    p.pose = canonical(p.pose);
   }
-  std::sort(parts.begin(), parts.end(), [](const PlacedPart& a, const PlacedPart& b) { return a.part < b.part; });
+  const auto by_part = [](const PlacedPart& a, const PlacedPart& b) { return a.part < b.part; };
+  if (!std::is_sorted(parts.begin(), parts.end(), by_part)) std::sort(parts.begin(), parts.end(), by_part);
 }
 
 void append(std::string& bytes, std::uint64_t word) {
@@ -60,6 +59,13 @@ SceneDigest sha256(const std::string& bytes) {
 }
 
 }  // namespace
+
+Pose canonical(Pose pose) {
+  if (has_wrong_sign(pose.q)) pose.q.coeffs() = -pose.q.coeffs();
+  pose.q.coeffs().array() += 0.0;  // -0 becomes +0
+  pose.t.array() += 0.0;
+  return pose;
+}
 
 Attempt canonical(const Attempt& attempt, std::size_t part_count) {
   if (attempt.moving.empty()) throw std::invalid_argument("attempt in which no part moves");

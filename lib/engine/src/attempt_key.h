@@ -25,6 +25,9 @@ struct AttemptKey {
 /// of the goal does not move or moves alone.
 Attempt canonical(const Attempt& attempt, std::size_t part_count);
 
+/// As it stands in a canonical attempt.
+Pose canonical(Pose pose);
+
 /// Digest of a canonical scene.
 SceneDigest digest_of(const Attempt& canonical_attempt);
 

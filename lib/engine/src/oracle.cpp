@@ -228,7 +228,7 @@ const AttemptResult& Oracle::propose(const Attempt& attempt, const Path& path, R
   if (computed.interrupted) return result;
   ++proposed_;
   if (is_success(result.result.outcome()))
-    keys_.emplace(&result, AttemptKey{digest_of(result.attempt), 0, {}});
+    keys_.emplace(&result, AttemptKey{});
   else
     ++refused_;
   return result;
@@ -249,11 +249,6 @@ OracleCounts Oracle::counts() const {
   counts.refused = refused_;
   counts.discarded = computed_ahead_.unused();
   return counts;
-}
-
-const AttemptKey* Oracle::key_of(const AttemptResult* result) const {
-  const auto known = keys_.find(result);
-  return known == keys_.end() ? nullptr : &known->second;
 }
 
 SearchEffort Oracle::effort_on(PartId part) const {

@@ -52,8 +52,8 @@ class Oracle final : public PathOracle {
   double tolerance() const override { return verifier_.options().max_penetration; }
   ForcingOracle* forcing() override { return forcing_.get(); }
 
-  /// Key of `result`; null unless this oracle planned it, remembered it, or accepted it as a proposal.
-  const AttemptKey* key_of(const AttemptResult* result) const;
+  /// Has this oracle planned it, remembered it, or accepted it as a proposal?
+  bool answered(const AttemptResult* result) const { return keys_.contains(result); }
   /// Cost of the unsuccessful searches for removing `part`, alone or with others, that were asked for and not
   /// interrupted.
   SearchEffort effort_on(PartId part) const;
@@ -98,7 +98,7 @@ class Oracle final : public PathOracle {
   std::deque<AttemptResult> results_;
   std::map<AttemptKey, const AttemptResult*> answers_;
   std::map<SceneDigest, Final> finals_;
-  std::map<const AttemptResult*, AttemptKey> keys_;
+  std::map<const AttemptResult*, AttemptKey> keys_;  ///< of what can be recorded; proposals are not asked by key
   std::map<SceneDigest, std::vector<const AttemptResult*>> unsuccessful_;  ///< by digest_of_moving, in order of asking
   std::map<std::string, double> planner_counts_;
   std::atomic<std::uint64_t> planned_{0}, memoised_{0}, proposed_{0}, refused_{0};

@@ -92,20 +92,20 @@ bool Recorder::taken_back(std::size_t count) {
 }
 
 void Recorder::check_question(const Removal& removal) const {
-  const AttemptKey* key = oracle_.key_of(removal.attempt);
-  if (key == nullptr || !removal.attempt->removes())
+  if (!oracle_.answered(removal.attempt) || !removal.attempt->removes())
     throw std::logic_error("a removal that is not a successful answer of the oracle");
   if (removal.parts.empty()) throw std::logic_error("a removal of no part");
   const std::optional<std::size_t> group = disassembly_.common_group(removal.parts);
   if (!group) throw std::logic_error("the parts of a removal are unknown or not together any more");
   const std::vector<PartId> rest = without(disassembly_.groups()[*group], removal.parts);
   if (rest.empty() && !removal.attempt->out) throw std::logic_error("a removal that leaves nothing behind");
-  Attempt question;
-  question.goal = removal.attempt->attempt.goal;
-  question.moving = disassembly_.placed(removal.parts);
-  question.fixed = disassembly_.placed(rest);
-  if (removal.parts != ids_of(removal.attempt->attempt.moving) ||
-      digest_of(canonical(question, assembly_.parts.size())) != key->scene)
+  const Attempt& question = removal.attempt->attempt;
+  const auto stand = [&](const std::vector<PartId>& parts, const std::vector<PlacedPart>& then) {
+    return std::equal(parts.begin(), parts.end(), then.begin(), then.end(), [&](PartId id, const PlacedPart& p) {
+      return p.part == id && p.pose == canonical(disassembly_.pose(id));
+    });
+  };
+  if (!stand(removal.parts, question.moving) || !stand(rest, question.fixed))
     throw std::logic_error("a removal whose path was found for other parts or other places");
 }
 
