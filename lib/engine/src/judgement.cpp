@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <exception>
+#include <iterator>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "dismantle/part_set.h"
@@ -48,34 +52,87 @@ PlanVerdict verdict_of(const PlanObjectiveItem& item, const Assembly& assembly,
   return written;
 }
 
-/// Questions about operations, each with the one before it.
-class Questions {
+/// All operations, for checks that judge a plan as a whole. What is present is not copied for each: an operation shares
+/// a list with those before it as long as the parts of the group only grow in number, and has its beginning.
+class WholePlan {
  public:
-  explicit Questions(const std::deque<Operation>& operations) {
-    for (const Operation& operation : operations) alone_.push_back(operation.question());
-    for (std::size_t k = 0; k < operations.size(); ++k)
-      all_.push_back(operations[k].question(k == 0 ? nullptr : &alone_[k - 1]));
+  WholePlan(const Disassembly& done, const Assembly& assembly, const Eigen::Vector3d& up) {
+    const std::vector<DisassemblyStep>& steps = done.steps();
+    std::vector<std::vector<PlacedPart>*> built(done.groups().size(), nullptr);  // by group: its list
+    std::vector<std::size_t> most(done.groups().size(), 0);                      // parts that a group ever has
+    for (std::size_t g = 0; g < most.size(); ++g) most[g] = done.groups()[g].size();
+    for (std::size_t k = 0; k < steps.size(); ++k) most[done.left_group(k)] += steps[k].leaving().size();
+    for (std::size_t k = steps.size(); k-- > 0;) {
+      const std::size_t group = done.left_group(k);
+      const std::vector<PlacedPart> moved = done.placed(steps[k].parts, k);
+      const auto moves = [&](const PlacedPart& p) { return contains(steps[k].parts, p.part); };
+      if (built[group] == nullptr) {
+        built[group] = new_list(most[group]);
+        for (const PartId id : done.groups()[group]) built[group]->push_back({id, done.pose(id)});
+      }
+      if (steps[k].leaving().size() < steps[k].parts.size()) {  // parts that stay were elsewhere before
+        std::vector<PlacedPart>* before = new_list(most[group]);
+        std::remove_copy_if(built[group]->begin(), built[group]->end(), std::back_inserter(*before), moves);
+        built[group] = before;
+      }
+      operations_.emplace_back(assembly, moved, std::vector<PlacedPart>{}, *steps[k].path, steps[k].up.value_or(up));
+      alone_.push_back(with_present(operations_.back().question(), *built[group]));
+      all_.push_back(with_present(operations_.back().question(alone_.size() > 1 ? &alone_[alone_.size() - 2] : nullptr),
+                                  *built[group]));
+      built[group]->insert(built[group]->end(), moved.begin(), moved.end());
+    }
   }
-  const StepQuestion& operator[](std::size_t k) const { return all_[k]; }
-  const std::deque<StepQuestion>& all() const { return all_; }
+  std::span<const StepQuestion> all() const { return all_; }
 
  private:
-  std::deque<StepQuestion> alone_, all_;
+  std::vector<PlacedPart>* new_list(std::size_t capacity) {
+    lists_.emplace_back().reserve(capacity);
+    return &lists_.back();
+  }
+  static StepQuestion with_present(StepQuestion question, const std::vector<PlacedPart>& list) {
+    return {question.assembly, question.moving,  list, question.direction, question.path,
+            question.up,       question.previous};
+  }
+
+  std::deque<std::vector<PlacedPart>> lists_;
+  std::deque<Operation> operations_;
+  std::deque<StepQuestion> alone_;
+  std::vector<StepQuestion> all_;
 };
 
+/// What some checks say of a plan.
 struct Judged {
   std::vector<PlanVerdict> steps;  ///< in the order of disassembly
   std::optional<PlanVerdict> plan{};
 };
 
-Judged judge_with(const StepCheck& check, const PlanObjectiveItem& item, const Questions& questions,
-                  const Assembly& assembly, const RunContext& context) {
-  Judged judged;
-  for (std::size_t k = questions.all().size(); k-- > 0;)
-    judged.steps.push_back(verdict_of(item, assembly, [&] { return check.judge(questions[k], context); }));
-  if (check.traits().judges_plan) {
-    const std::vector<StepQuestion> all(questions.all().begin(), questions.all().end());
-    judged.plan = verdict_of(item, assembly, [&] { return check.judge_plan(all, context); });
+/// A check to ask, and how it stands in the plan.
+struct Asked {
+  const StepCheck& check;
+  const PlanObjectiveItem& item;
+};
+
+/// Operations are made one after the other: each holds all parts that are present.
+std::vector<Judged> judge_with(const std::vector<Asked>& checks, const Disassembly& done, const Assembly& assembly,
+                               const Eigen::Vector3d& up, const RunContext& context) {
+  std::vector<Judged> judged(checks.size());
+  std::optional<Operation> before;
+  for (std::size_t k = done.steps().size(); k-- > 0;) {
+    std::optional<Operation> now(operation_of(done, k, assembly, up));
+    const std::optional<StepQuestion> earlier = before ? std::optional(before->question()) : std::nullopt;
+    const StepQuestion question = now->question(earlier ? &*earlier : nullptr);
+    for (std::size_t c = 0; c < checks.size(); ++c)
+      judged[c].steps.push_back(
+          verdict_of(checks[c].item, assembly, [&] { return checks[c].check.judge(question, context); }));
+    before.emplace(std::move(*now));
+  }
+  for (Judged& j : judged) std::reverse(j.steps.begin(), j.steps.end());
+  std::optional<WholePlan> whole;
+  for (std::size_t c = 0; c < checks.size(); ++c) {
+    if (!checks[c].check.traits().judges_plan) continue;
+    if (!whole) whole.emplace(done, assembly, up);
+    judged[c].plan =
+        verdict_of(checks[c].item, assembly, [&] { return checks[c].check.judge_plan(whole->all(), context); });
   }
   return judged;
 }
@@ -110,22 +167,13 @@ Operation operation_of(const Disassembly& disassembly, std::size_t k, const Asse
   std::vector<PartId> present;
   for (PartId id = 0; id < disassembly.parts(); ++id)
     if (disassembly.group(id, k) == disassembly.left_group(k) && !contains(step.parts, id)) present.push_back(id);
-  return {assembly, disassembly.placed(step.parts, k), disassembly.placed(present, k), *step.path, step.up.value_or(up)};
-}
-
-std::deque<Operation> operations_of(const Disassembly& disassembly, const Assembly& assembly,
-                                    const Eigen::Vector3d& up) {
-  std::deque<Operation> operations;
-  for (std::size_t k = disassembly.steps().size(); k-- > 0;)
-    operations.push_back(operation_of(disassembly, k, assembly, up));
-  return operations;
+  return {assembly, disassembly.placed(step.parts, k), disassembly.placed(present, k), *step.path,
+          step.up.value_or(up)};
 }
 
 void judge(Plan& plan, const Disassembly& disassembly, const Assembly& assembly, const Objective& objective,
            const RunContext& context) {
   if (objective.empty()) return;
-  const std::deque<Operation> operations = operations_of(disassembly, assembly, objective.up);
-  const Questions questions(operations);
   PlanObjective& stated = plan.objective;
   stated.up = objective.up;
   for (const ObjectiveItem& item : objective.items) {
@@ -134,16 +182,22 @@ void judge(Plan& plan, const Disassembly& disassembly, const Assembly& assembly,
     check.weight = item.weight;
     check.require = item.require;
     check.parameters = item.parameters;
-    Judged judged = judge_with(*item.check, check, questions, assembly, context);
+  }
+  std::vector<Asked> asked;
+  for (std::size_t c = 0; c < stated.checks.size(); ++c) asked.push_back({*objective.items[c].check, stated.checks[c]});
+  std::vector<Judged> all = judge_with(asked, disassembly, assembly, objective.up, context);
+  for (std::size_t c = 0; c < stated.checks.size(); ++c) {
+    PlanObjectiveItem& check = stated.checks[c];
+    Judged& judged = all[c];
     std::string failed = judged.plan ? judged.plan->failed : "";
     for (std::size_t k = 0; k < judged.steps.size(); ++k) {
       if (!judged.steps[k].failed.empty()) failed = judged.steps[k].failed;
       plan.disassembly.at(k).checks.push_back(std::move(judged.steps[k]));
     }
     if (!failed.empty())
-      context.log(LogLevel::error, fmt::format("step check '{}' could not judge all steps: {}", item.id, failed));
+      context.log(LogLevel::error, fmt::format("step check '{}' could not judge all steps: {}", check.type, failed));
     check.plan = std::move(judged.plan);
-    check.cost = total(plan, stated.checks.size() - 1);
+    check.cost = total(plan, c);
     stated.cost += check.weight * check.cost;
   }
 }
@@ -164,23 +218,28 @@ void judge_again(PlanCheck& check, const Plan& plan, const Assembly& assembly, c
     if (!same) return problem(step.step, "its checks are not those of the objective");
   }
   if (stated.empty()) return;
-  const std::deque<Operation> operations = operations_of(disassembly_of(plan, assembly), assembly, stated.up);
-  const Questions questions(operations);
+  std::vector<std::shared_ptr<const StepCheck>> made;
+  std::vector<Asked> asked;
+  for (const PlanObjectiveItem& item : stated.checks) {
+    std::shared_ptr<const StepCheck>& own = made.emplace_back();
+    try {
+      own = check_of_type(item.type, item.parameters);
+      asked.push_back({*own, item});
+    } catch (const std::exception& e) {
+      check.not_checked.push_back(fmt::format("'{}': {}", item.type, e.what()));
+    }
+  }
+  const std::vector<Judged> all = judge_with(asked, disassembly_of(plan, assembly), assembly, stated.up, context);
   double cost = 0;
+  std::size_t next = 0;
   for (std::size_t c = 0; c < stated.checks.size(); ++c) {
     const PlanObjectiveItem& item = stated.checks[c];
     cost += item.weight * item.cost;
     if (!near(item.cost, total(plan, c)))
       problem(0, fmt::format("objective: '{}' costs {:.6g} in all, not {:.6g} as its verdicts say", item.type,
                              item.cost, total(plan, c)));
-    std::shared_ptr<const StepCheck> made;
-    try {
-      made = check_of_type(item.type, item.parameters);
-    } catch (const std::exception& e) {
-      check.not_checked.push_back(fmt::format("'{}': {}", item.type, e.what()));
-      continue;
-    }
-    const Judged judged = judge_with(*made, item, questions, assembly, context);
+    if (!made[c]) continue;
+    const Judged& judged = all[next++];
     for (std::size_t k = 0; k < judged.steps.size(); ++k, ++check.verdicts)
       if (const auto text = difference(plan.disassembly[k].checks[c], judged.steps[k]); !text.empty())
         problem(plan.disassembly[k].step, fmt::format("'{}': {}", item.type, text));

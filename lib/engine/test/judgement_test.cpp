@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -81,6 +83,67 @@ TEST(Judgement, QuestionsAreTheOperationsInTheOrderOfAssembly) {
     EXPECT_GE(a.instants, 2u);
   }
   EXPECT_EQ(seen.size(), 3u);
+}
+
+/// Parts of any groups move, stay and leave. A check of the whole plan is asked about the same operations as step by
+/// step; what is present may be in another order.
+TEST(Judgement, AWholePlanHasTheOperationsOfItsSteps) {
+  struct Seen {
+    std::map<PartId, Pose> moving, present;
+    std::optional<PartId> before;
+    Eigen::Vector3d direction;
+    bool operator==(const Seen&) const = default;
+  };
+  class Watch final : public StepCheck {
+   public:
+    mutable std::vector<Seen> steps, whole;
+    StepCheckTraits traits() const noexcept override { return {.remembers_shape = true, .judges_plan = true}; }
+    StepVerdict judge(const StepQuestion& q, const RunContext&) const override {
+      steps.push_back(seen(q));
+      return {};
+    }
+    StepVerdict judge_plan(std::span<const StepQuestion> all, const RunContext&) const override {
+      for (const StepQuestion& q : all) whole.push_back(seen(q));
+      return {};
+    }
+    static Seen seen(const StepQuestion& q) {
+      Seen s{{}, {}, std::nullopt, q.direction};
+      for (const PlacedPart& p : q.moving) s.moving[p.part] = p.pose;
+      for (const PlacedPart& p : q.present) s.present[p.part] = p.pose;
+      if (q.previous != nullptr) s.before = q.previous->moving.front().part;
+      return s;
+    }
+  };
+  Rng rng(58);
+  for (int trial = 0; trial < 30; ++trial) {
+    const Assembly assembly = fake::row(7);
+    Disassembly done(assembly.parts.size());
+    for (int tries = 0; tries < 12; ++tries) {
+      const std::vector<PartId>& group = done.groups()[rng.below(done.groups().size())];
+      if (group.size() < 2) continue;
+      DisassemblyStep step;
+      for (const PartId id : group)
+        if (step.parts.size() + 1 < group.size() && rng.below(2) == 0) step.parts.push_back(id);
+      if (step.parts.empty()) step.parts = {group.front()};
+      const std::uint64_t kind = rng.below(4);
+      step.placement = kind == 0;
+      if (kind == 1 && step.parts.size() > 1) step.released = step.parts.back();
+      Path path(2);
+      const Eigen::Vector3d shift(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
+      for (const PartId id : step.parts) {
+        path[0].push_back(done.pose(id));
+        path[1].push_back({done.pose(id).t + shift, done.pose(id).q});
+      }
+      step.path = std::make_shared<const Path>(std::move(path));
+      done.add(std::move(step));
+    }
+    Plan plan;
+    plan.disassembly.resize(done.steps().size());
+    const auto watch = std::make_shared<Watch>();
+    judge(plan, done, assembly, {{{"watch", watch, 1, false, {}}}}, RunContext{});
+    ASSERT_EQ(watch->steps.size(), done.steps().size());
+    EXPECT_EQ(watch->steps, watch->whole) << trial;
+  }
 }
 
 TEST(Judgement, ThePlanStatesVerdictsAndSums) {

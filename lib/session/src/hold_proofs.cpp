@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <deque>
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <variant>
@@ -108,17 +107,21 @@ void check_hold_proofs(PlanCheck& check, const Plan& plan, const Assembly& assem
     const statics::StatedModel model(text_in(item.parameters, "fixed"), number_in(item.parameters, "friction", 0.4),
                                      text_in(item.parameters, "density"));
     const statics::BuiltPiles piles(assembly, model.options(assembly));
-    const std::deque<Operation> operations = operations_of(disassembly_of(plan, assembly), assembly, objective.up);
+    const Disassembly done = disassembly_of(plan, assembly);
+    const std::size_t count = done.steps().size();
     std::size_t proofs = 0;
-    for (std::size_t k = 0; k < operations.size() && !context.should_stop(); ++k) {
-      const PlanStep& step = plan.disassembly.at(operations.size() - 1 - k);
+    for (std::size_t k = count; k-- > 0 && !context.should_stop();) {  // in the order of assembly
+      const PlanStep& step = plan.disassembly.at(k);
       const PlanVerdict& verdict = step.checks.at(c);
       if (!verdict.certificate) continue;
       ++proofs;
-      const StepQuestion before = operations[k == 0 ? 0 : k - 1].question();
+      const bool first = k + 1 == count;
+      const Operation operation = operation_of(done, k, assembly, objective.up),
+                      earlier = operation_of(done, first ? k : k + 1, assembly, objective.up);
+      const StepQuestion before = earlier.question();
       std::string wrong;
       try {
-        wrong = problem_of(verdict, operations[k].question(k == 0 ? nullptr : &before), piles);
+        wrong = problem_of(verdict, operation.question(first ? nullptr : &before), piles);
       } catch (const nlohmann::json::exception& e) {
         wrong = fmt::format("the data of its note cannot be read: {}", e.what());
       }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
@@ -20,9 +19,6 @@ namespace dismantle {
 /// Step `k`, from 0, as an assembly operation. It refers to `assembly`.
 DISMANTLE_API Operation operation_of(const Disassembly& disassembly, std::size_t k, const Assembly& assembly,
                                      const Eigen::Vector3d& up);
-/// All steps as assembly operations, in the order of assembly: the last step first.
-DISMANTLE_API std::deque<Operation> operations_of(const Disassembly& disassembly, const Assembly& assembly,
-                                                  const Eigen::Vector3d& up);
 
 /// Sets the objective of the plan of this disassembly, and the checks of its steps. A check that throws, or that says
 /// what cannot be written, has `failed`, which is logged as an error. With an empty objective the plan stays as it is.
