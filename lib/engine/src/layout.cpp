@@ -1,6 +1,7 @@
 #include "dismantle/engine/layout.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -49,13 +50,13 @@ class Columns {
               [&](std::size_t p, std::size_t q) { return blocked[p].lo.x() < blocked[q].lo.x(); });
   }
 
-  /// The values of y nearest to `wish`, one not below and one not above it, that are inside no rectangle at `x`. Must
-  /// be called with ascending `x`.
-  std::pair<double, double> nearest_free(double x, double wish) {
+  /// The values of y nearest to `wish`, one not below and one not above it, that are inside no rectangle at `x`. None
+  /// is nearer than `least`. Must be called with ascending `x`.
+  std::pair<double, double> nearest_free(double x, double wish, double least) {
     for (; next_ < by_left_.size() && blocked_[by_left_[next_]].lo.x() < x; ++next_)
       crossed_.insert(std::lower_bound(crossed_.begin(), crossed_.end(), by_left_[next_]), by_left_[next_]);
     std::erase_if(crossed_, [&](std::size_t r) { return blocked_[r].hi.x() <= x; });
-    double above = wish, below = wish;
+    double above = wish + least, below = wish - least;
     for (const std::size_t i : crossed_) {  // by ascending lower edge, so one pass is enough
       const Rectangle& r = blocked_[i];
       if (r.lo.y() < above && above < r.hi.y()) above = r.hi.y();
@@ -84,16 +85,23 @@ class Table {
   Rectangle shadow(const Aabb& box) const { return {{box.lo[u_], box.lo[v_]}, {box.hi[u_], box.hi[v_]}}; }
   void take(const Rectangle& r) { taken_.push_back(r); }
 
-  /// Lower corner of the free position of a box of this size whose centre is nearest to `middle`. The forbidden corners
-  /// are a union of rectangles; each coordinate of the nearest point outside is that of `wish` or of an edge.
-  Eigen::Vector2d place(const Eigen::Vector2d& size, const Eigen::Vector2d& middle) const {
+  /// Lower corner of the free position of a box of this size whose centre is nearest to `middle`, which is the same for
+  /// all. The forbidden corners are a union of rectangles; each coordinate of the nearest point outside is that of
+  /// `wish` or of an edge.
+  Eigen::Vector2d place(const Eigen::Vector2d& size, const Eigen::Vector2d& middle) {
+    const Eigen::Vector2d wish = middle - size / 2;
+    // Nothing is free within `known`. Rectangles that end there are not looked at: as many are left as fit around it.
+    const double known = no_nearer(size), ends = known * (1 - geometry::kRounding);
     std::vector<Rectangle> blocked;
     // Rounding must not reduce the gap, and both edges are rounded.
     const double gap = gap_ + 2 * geometry::kRounding * gap_;
-    for (const auto& t : taken_) blocked.push_back({t.lo.array() - gap - size.array(), t.hi.array() + gap});
+    for (const auto& t : taken_) {
+      const Rectangle r{t.lo.array() - gap - size.array(), t.hi.array() + gap};
+      const Eigen::Vector2d reach = (r.lo - wish).cwiseAbs().cwiseMax((r.hi - wish).cwiseAbs());
+      if (!(reach.squaredNorm() < ends * ends)) blocked.push_back(r);
+    }
     std::stable_sort(blocked.begin(), blocked.end(),
                      [](const Rectangle& p, const Rectangle& q) { return p.lo.y() < q.lo.y(); });
-    const Eigen::Vector2d wish = middle - size / 2;
 
     Eigen::Vector2d best = wish;
     auto least = std::make_pair(std::numeric_limits<double>::infinity(), std::size_t{0});
@@ -103,17 +111,38 @@ class Table {
     };
     Columns columns(blocked);
     for (const Column& c : columns_at(wish.x(), blocked)) {
-      const auto [above, below] = columns.nearest_free(c.x, wish.y());
+      const double aside = c.x - wish.x(), within = known * known - aside * aside;
+      const auto [above, below] = columns.nearest_free(c.x, wish.y(), within > 0 ? std::sqrt(within) : 0);
       consider({c.x, above}, 2 * c.rank);
       consider({c.x, below}, 2 * c.rank + 1);
     }
+    remember(size, std::sqrt(least.first) - geometry::kRounding * (best.cwiseAbs() + size + middle.cwiseAbs()).sum());
     return best;
   }
 
  private:
   int u_, v_;
+  /// A box of at least this size had no free position nearer to the middle. What is taken since makes it no nearer.
+  struct Known {
+    Eigen::Vector2d size;
+    double distance = 0;
+  };
+  static bool is_within(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return (a.array() <= b.array()).all(); }
+  double no_nearer(const Eigen::Vector2d& size) const {
+    double most = 0;
+    for (const Known& k : known_)
+      if (k.distance > most && is_within(k.size, size)) most = k.distance;
+    return most;
+  }
+  void remember(const Eigen::Vector2d& size, double distance) {
+    if (!(distance > no_nearer(size))) return;
+    std::erase_if(known_, [&](const Known& k) { return k.distance <= distance && is_within(size, k.size); });
+    known_.push_back({size, distance});
+  }
+
   double gap_;
   std::vector<Rectangle> taken_;
+  std::vector<Known> known_;  // of which none says all that another one says
 };
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "dismantle/run_context.h"
@@ -52,6 +54,56 @@ TEST(Layout, NothingOverlapsAndAllLiesOnThePlane) {
       EXPECT_NEAR(sign > 0 ? a.lo[up] : a.hi[up], sign > 0 ? taken[0].lo[up] : taken[0].hi[up], 1e-12);
       for (const auto& t : taken) EXPECT_GE(apart(a, t, up), gap);
       for (std::size_t k = 0; k < i; ++k) EXPECT_GE(apart(a, shifted(boxes[k], shifts[k]), up), gap);
+    }
+  }
+}
+
+/// Many boxes of few sizes, which fill the plane around the middle: each lies where no free place is nearer, as a
+/// search of all corners finds it.
+TEST(Layout, EachBoxIsAsNearAsItCanBe) {
+  Rng rng(3);
+  for (int trial = 0; trial < 6; ++trial) {
+    const double gap = rng.uniform(0.05, 0.5);
+    std::vector<Vector3d> sizes;
+    for (int k = 0; k < 4; ++k) sizes.emplace_back(rng.uniform(0.2, 2), rng.uniform(0.2, 2), 1);
+    const std::vector<Aabb> taken{random_box(rng, 6)};
+    std::vector<Aabb> boxes;
+    for (int k = 0; k < 120; ++k) {
+      Aabb box;
+      box.extend(Vector3d(rng.uniform(-5, 5), rng.uniform(-5, 5), 0));
+      box.extend(box.lo + (rng.below(3) == 0 ? sizes[0] : sizes[rng.below(4)]));
+      boxes.push_back(box);
+    }
+    const auto shifts = lay_out(boxes, taken, Vector3d::UnitZ(), gap);
+    std::vector<std::size_t> order(boxes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return boxes[a].size().head<2>().prod() > boxes[b].size().head<2>().prod();
+    });
+    std::vector<Aabb> there = taken;
+    const Vector3d middle = taken[0].center();
+    for (const std::size_t i : order) {
+      const Vector3d size = boxes[i].size(), wish = middle - size / 2;
+      std::vector<double> xs{wish.x()}, ys{wish.y()};
+      for (const Aabb& t : there)
+        for (const double side : {-1.0, 1.0}) {
+          const double far = gap * (1 + 1e-8);
+          xs.push_back(side < 0 ? t.lo.x() - far - size.x() : t.hi.x() + far);
+          ys.push_back(side < 0 ? t.lo.y() - far - size.y() : t.hi.y() + far);
+        }
+      double least = std::numeric_limits<double>::infinity();
+      for (const double x : xs)
+        for (const double y : ys) {
+          const double distance = (Eigen::Vector2d(x, y) - wish.head<2>()).norm();
+          if (distance >= least) continue;
+          const bool is_free = std::none_of(there.begin(), there.end(), [&](const Aabb& t) {
+            return x > t.lo.x() - gap - size.x() && x < t.hi.x() + gap && y > t.lo.y() - gap - size.y() &&
+                   y < t.hi.y() + gap;
+          });
+          if (is_free) least = distance;
+        }
+      there.push_back(shifted(boxes[i], shifts[i]));
+      EXPECT_LE((there.back().lo - wish).head<2>().norm(), least + 1e-6) << trial << " " << i;
     }
   }
 }
