@@ -14,6 +14,7 @@
 #include "dismantle/geometry/swept_boxes.h"
 #include "dismantle/part_set.h"
 #include "placed_paths.h"
+#include "scenery.h"
 
 namespace dismantle {
 
@@ -22,39 +23,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 }  // namespace
-
-/// The disassembly, and where its groups lie before assembly. "Place" of a group: its displacement from its pose in the
-/// disassembly. Groups of the start stay where they are.
-struct Assembler::Scenery {
-  const Disassembly& done;
-  const std::vector<DisassemblyStep>& steps;
-  std::vector<Pose> place;           ///< [group]
-  std::vector<std::string> missing;  ///< [group]: why it is not in the layout; empty: it is
-
-  explicit Scenery(const Disassembly& disassembly) : done(disassembly), steps(disassembly.steps()) {
-    place.resize(done.groups().size()), missing.resize(done.groups().size());
-  }
-
-  bool of_start(std::size_t group) const { return group < done.start_groups(); }
-  /// All parts but those of step `i`, at the time of their transfer. Groups that are not in the layout are left out,
-  /// except the one that the step adds to.
-  std::vector<PlacedPart> others(std::size_t i) const {
-    std::vector<PlacedPart> all;
-    for (PartId id = 0; id < done.parts(); ++id) {
-      const std::size_t group = done.group(id, i + 1);
-      if (group == Disassembly::kAbsent || contains(steps[i].parts, id)) continue;
-      if (!missing[group].empty() && group != done.left_group(i)) continue;
-      all.push_back({id, place[group] * done.pose(id, i + 1)});
-    }
-    return all;
-  }
-  void leave_out(std::size_t group, std::string why) {
-    missing[group] = std::move(why);
-    place[group] = place[done.left_group(group - done.start_groups())];
-  }
-  /// The reversed disassembly path of step `i`, at the place of the group that its parts are inserted into.
-  Path insertion(std::size_t i) const { return backwards(displaced(place[done.left_group(i)], *steps[i].path)); }
-};
 
 /// Transfer from the layout to where the way in begins.
 struct Assembler::Found {
@@ -147,10 +115,11 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
 /// Leaves groups out of the layout that are in the way of an insertion. The automatic layout leaves room; poses given
 /// by the user may not.
 void Assembler::clear_insertions(Scenery& scenery, const RunContext& context) const {
+  Standing standing;
   for (std::size_t i = 0; i < scenery.steps.size(); ++i) {
     if (context.should_stop()) return;  // no more transfers are searched for
     const std::size_t from = scenery.done.left_group(i);
-    std::vector<PlacedPart> others = scenery.others(i);
+    std::vector<PlacedPart> others = standing.others(scenery, i);
     // The parts that it passed on its way out need no check: the motion is the same.
     std::erase_if(others, [&](const PlacedPart& p) { return scenery.done.group(p.part, i + 1) == from; });
     const MotionCheck check = verifier_.check_motion(scenery.steps[i].parts, others, scenery.insertion(i), context);
@@ -213,11 +182,11 @@ class Assembler::Checker final : public PathChecker {
   std::vector<PartId> moving_;
 };
 
-Assembler::Found Assembler::transfer(const Scenery& scenery, std::size_t i, TransferPlanner& planner,
-                                     const RunContext& context) const {
+Assembler::Found Assembler::transfer(const Scenery& scenery, std::size_t i, Standing& standing,
+                                     TransferPlanner& planner, const RunContext& context) const {
   const DisassemblyStep& step = scenery.steps[i];
   const std::size_t from = scenery.done.left_group(i), made = scenery.done.group_of_step(i);
-  Scene scene{{}, scenery.others(i)};
+  Scene scene{{}, standing.others(scenery, i)};
   std::vector<Pose> goal;
   for (const PartId id : step.parts) {
     const Pose& out = scenery.done.pose(id, i + 1);
@@ -273,27 +242,28 @@ Assembler::Found Assembler::transfer(const Scenery& scenery, std::size_t i, Tran
 }
 
 /// Transfers of the steps [first, last) that need one, found by several threads with the present scenery.
-std::vector<Assembler::Found> Assembler::transfers(const Scenery& scenery, std::size_t first, std::size_t last,
-                                                   const RunContext& context) {
+std::vector<Assembler::Found> Assembler::transfers(const Scenery& scenery, std::vector<Standing>& standing,
+                                                   std::size_t first, std::size_t last, const RunContext& context) {
   std::vector<Found> transfers_found(last - first);
-  const auto one = [&](std::size_t k, TransferPlanner& planner) {
+  const auto one = [&](std::size_t k, std::size_t thread) {
     const std::size_t i = first + k;
     if (!scenery.missing[scenery.done.group_of_step(i)].empty() || scenery.steps[i].placement) return;
     if (context.should_stop())
       transfers_found[k].looked_for = false;
     else
-      transfers_found[k] = transfer(scenery, i, planner, context);
+      transfers_found[k] = transfer(scenery, i, standing[thread], *planners_[thread], context);
   };
   const std::size_t threads = std::min<std::size_t>(std::max(1U, context.threads), transfers_found.size());
   while (planners_.size() < threads) {
     planners_.push_back(setup_.transfer_planner());
     if (!planners_.back()) throw PluginError("transfer_planner", "nothing was made");
   }
+  standing.resize(std::max(standing.size(), threads));
   std::atomic<std::size_t> next{0};
   parallel_for(
       threads, context,
       [&](std::size_t thread) {
-        for (std::size_t k = next++; k < transfers_found.size(); k = next++) one(k, *planners_[thread]);
+        for (std::size_t k = next++; k < transfers_found.size(); k = next++) one(k, thread);
       },
       [] { return false; });
   return transfers_found;
@@ -344,8 +314,10 @@ AssemblyPlan Assembler::put_together(const Disassembly& done, const std::vector<
   // out has another place from then on, so transfers found for later steps are discarded. A wave holds several steps
   // per thread, so that one long search does not leave other threads idle.
   const std::size_t wave = context.threads > 1 ? 16 * context.threads : 1;
+  std::vector<Standing> standing;  // by thread
   for (std::size_t first = 0; first < steps.size();) {
-    std::vector<Found> transfers_found = transfers(scenery, first, std::min(first + wave, steps.size()), context);
+    std::vector<Found> transfers_found =
+        transfers(scenery, standing, first, std::min(first + wave, steps.size()), context);
     bool as_supposed = true;
     for (std::size_t k = 0; k < transfers_found.size() && as_supposed; ++k) {
       const std::size_t i = first++, made = done.group_of_step(i);

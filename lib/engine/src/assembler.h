@@ -31,17 +31,19 @@ class Assembler {
             const RunOptions& options, const Verifier& verifier);
 
   /// `written`: its steps in the form of the plan.
-  AssemblyPlan put_together(const Disassembly& done, const std::vector<PlanStep>& written,
-                            const RunContext& context);
+  AssemblyPlan put_together(const Disassembly& done, const std::vector<PlanStep>& written, const RunContext& context);
 
  private:
   struct Scenery;
+  class Standing;
   struct Found;
   class Checker;
   void place_groups(Scenery& scenery, const RunContext& context) const;
   void clear_insertions(Scenery& scenery, const RunContext& context) const;
-  std::vector<Found> transfers(const Scenery& scenery, std::size_t first, std::size_t last, const RunContext& context);
-  Found transfer(const Scenery& scenery, std::size_t step, TransferPlanner& planner, const RunContext& context) const;
+  std::vector<Found> transfers(const Scenery& scenery, std::vector<Standing>& standing, std::size_t first,
+                               std::size_t last, const RunContext& context);
+  Found transfer(const Scenery& scenery, std::size_t step, Standing& standing, TransferPlanner& planner,
+                 const RunContext& context) const;
   PlanStep to_step(const Scenery& scenery, std::size_t step, const Found& found, const PlanStep& there) const;
   Aabb box_of(PartId part, const Pose& pose) const;
 

@@ -1,8 +1,10 @@
 #include "precedence.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "dismantle/geometry/swept_boxes.h"
@@ -44,12 +46,36 @@ std::vector<PartMotion> motions_of(const DisassemblyStep& step, const std::vecto
 class Needs {
  public:
   Needs(const Disassembly& done, const Assembly& assembly, const Verifier& verifier)
-      : done_(done), steps_(done.steps()), verifier_(verifier) {
+      : done_(done), steps_(done.steps()), verifier_(verifier), moved_in_(assembly.parts.size()) {
     for (const Part& part : assembly.parts) boxes_.push_back(part.mesh->box());
     for (std::size_t i = 0; i < steps_.size(); ++i) {
+      for (const PartId id : steps_[i].parts) moved_in_[id].push_back(i);
       std::vector<Aabb>& begin = begins_.emplace_back();
-      for (const PartId id : steps_[i].parts) begin.push_back(geometry::box_under(boxes_[id], done_.pose(id, i)));
+      Aabb& all = around_.emplace_back();
+      for (const PartId id : steps_[i].parts) {
+        begin.push_back(geometry::box_under(boxes_[id], done_.pose(id, i)));
+        all.extend(begin.back());
+      }
     }
+  }
+
+  /// The steps before b, latest first, that move a part of b, or parts that may be in the way of these motions. One
+  /// pass over a list of boxes.
+  std::vector<std::size_t> candidates(std::size_t b, const std::vector<PartMotion>& motions) const {
+    Aabb swept;
+    for (const PartMotion& m : motions) swept.extend(m.box);
+    std::vector<std::size_t> found;
+    for (std::size_t a = b; a-- > 0;)
+      if (swept.overlaps(around_[a])) found.push_back(a);
+    const std::size_t boxes = found.size();
+    for (const PartId id : steps_[b].parts)
+      for (const std::size_t a : moved_in_[id])
+        if (a < b) found.push_back(a);
+    if (found.size() > boxes) {
+      std::sort(found.begin(), found.end(), std::greater<>());
+      found.erase(std::unique(found.begin(), found.end()), found.end());
+    }
+    return found;
   }
 
   const std::vector<Aabb>& boxes() const { return boxes_; }
@@ -73,8 +99,10 @@ class Needs {
   const Disassembly& done_;
   const std::vector<DisassemblyStep>& steps_;
   const Verifier& verifier_;
-  std::vector<Aabb> boxes_;                // by part, in its own frame
-  std::vector<std::vector<Aabb>> begins_;  // [step][k]: of its k-th part, where it stands just before
+  std::vector<Aabb> boxes_;                         // by part, in its own frame
+  std::vector<std::vector<Aabb>> begins_;           // [step][k]: of its k-th part, where it stands just before
+  std::vector<Aabb> around_;                        // [step]: around these
+  std::vector<std::vector<std::size_t>> moved_in_;  // by part: the steps that move it
 };
 
 }  // namespace
@@ -90,7 +118,7 @@ std::vector<std::vector<std::size_t>> needed_steps(const Disassembly& done, cons
   for (std::size_t b = 0; b < n; ++b) {
     const std::vector<PartMotion> motions = motions_of(steps[b], needs.boxes());
     // Latest first: steps implied by a later one are not checked.
-    for (std::size_t a = b; a-- > 0;) {
+    for (const std::size_t a : needs.candidates(b, motions)) {
       if (context.cancel.cancelled()) {
         needed.resize(b);
         return needed;
@@ -121,6 +149,7 @@ std::vector<std::pair<PartId, PartId>> part_precedence(const Disassembly& done,
     for (const PartId id : steps[i].parts)
       if (steps[i].leaves(id)) leaves[id] = i;
   std::vector<std::pair<PartId, PartId>> pairs;
+  std::set<std::pair<PartId, PartId>> known;
   for (std::size_t b = 0; b < needed.size(); ++b)
     for (const std::size_t a : needed[b])
       for (const PartId before : steps[a].parts)
@@ -128,7 +157,7 @@ std::vector<std::pair<PartId, PartId>> part_precedence(const Disassembly& done,
           const auto first = leaves.find(before), second = leaves.find(after);
           if (first == leaves.end() || second == leaves.end() || first->second >= second->second) continue;
           const std::pair pair{before, after};
-          if (std::find(pairs.begin(), pairs.end(), pair) == pairs.end()) pairs.push_back(pair);
+          if (known.insert(pair).second) pairs.push_back(pair);
         }
   return pairs;
 }

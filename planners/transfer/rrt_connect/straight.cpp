@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/swept_boxes.h"
@@ -11,21 +14,40 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// The axis that `v` lies along, if it is one to the last bit.
+std::optional<Eigen::Index> axis_of(const Vector3d& v) {
+  Eigen::Index axis = 0;
+  if (v.cwiseAbs().maxCoeff(&axis) != 1 || v.cwiseAbs().sum() != 1) return std::nullopt;
+  return axis;
+}
+
 /// The largest coordinate of the parts in direction `v`. Only parts whose box reaches further than the maximum so far
-/// have their vertices visited.
+/// have their vertices visited; unturned parts along an axis, which are most, none at all: rounding is monotonic, so
+/// that the box says the same.
 double reach(const Assembly& assembly, PartBoxes& boxes, const std::vector<PlacedPart>& parts, const Pose& displacement,
              const Vector3d& v) {
   double most = -std::numeric_limits<double>::infinity();
-  std::vector<double> tops;
-  for (const auto& p : parts)
-    tops.push_back(geometry::top_of(boxes.of(assembly.parts[p.part]), displacement * p.pose, v));
+  const std::optional<Eigen::Index> axis = axis_of(v);
+  const bool unturned = displacement.q.vec().isZero(0);
+  std::vector<std::pair<double, std::size_t>> tops;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const PlacedPart& p = parts[i];
+    const Aabb& box = boxes.of(assembly.parts[p.part]);
+    if (axis && unturned && p.pose.q.vec().isZero(0)) {
+      const double at = p.pose.t[*axis] + displacement.t[*axis];
+      most = std::max(most, v[*axis] > 0 ? box.hi[*axis] + at : -(box.lo[*axis] + at));
+    } else {
+      tops.emplace_back(geometry::top_of(box, displacement * p.pose, v), i);
+    }
+  }
   const auto visit = [&](std::size_t i) {
     const Pose pose = displacement * parts[i].pose;
     for (const auto& x : assembly.parts[parts[i].part].mesh->vertices) most = std::max(most, v.dot(pose * x));
   };
-  if (!parts.empty()) visit(static_cast<std::size_t>(std::max_element(tops.begin(), tops.end()) - tops.begin()));
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    if (tops[i] > most) visit(i);
+  const auto highest = std::max_element(tops.begin(), tops.end());
+  if (highest != tops.end() && highest->first > most) visit(highest->second);
+  for (const auto& [top, i] : tops)
+    if (top > most) visit(i);
   return most;
 }
 
