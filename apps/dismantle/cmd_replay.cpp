@@ -9,6 +9,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/orders/agreement.h"
 #include "dismantle/orders/replay.h"
+#include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "settings.h"
 #include "stopped.h"
@@ -74,19 +75,32 @@ nlohmann::ordered_json item_json(const ReplayedItem& item, const Assembly& assem
   if (item.possible) return json;
   json["pair"] = {assembly.parts[item.part].name, assembly.parts[item.other].name};
   json["depth"] = item.depth / assembly.normalization.scale;
+  json["measured"] = item.measured;
   json["at"] = vector_json(assembly.normalization.to_input(item.at));
   return json;
 }
 
+std::string place_of(const ReplayedItem& item, const Assembly& assembly) {
+  return fmt::format("step {}{}: {}", item.step, item.group.empty() ? "" : " of " + item.group,
+                     item.item.empty() ? assembly.parts[item.parts.front()].name : item.item);
+}
+
 std::string item_text(const ReplayedItem& item, const Assembly& assembly) {
+  if (item.possible)
+    return fmt::format("possible: {}: put in along {}\n", place_of(item, assembly), axis_text(item.direction));
   const Eigen::Vector3d at = assembly.normalization.to_input(item.at);
   const std::string unit = assembly.unit.empty() ? "input units" : assembly.unit;
-  return fmt::format("refused: step {}{}: {}: '{}' cuts {:.3g} {} into '{}' at ({:.4g}, {:.4g}, {:.4g}), and deeper "
-                     "along every other direction that was tried\n",
-                     item.step, item.group.empty() ? "" : " of " + item.group,
-                     item.item.empty() ? assembly.parts[item.parts.front()].name : item.item,
-                     assembly.parts[item.part].name, item.depth / assembly.normalization.scale, unit,
-                     assembly.parts[item.other].name, at.x(), at.y(), at.z());
+  const std::string part = assembly.parts[item.part].name;
+  const std::string other =
+      fmt::format("'{}' at ({:.4g}, {:.4g}, {:.4g})", assembly.parts[item.other].name, at.x(), at.y(), at.z());
+  if (item.depth == 0)
+    return fmt::format("refused: {}: nothing that cuts in was measured, but '{}' is not proved to pass {}\n",
+                       place_of(item, assembly), part, other);
+  return fmt::format(
+      "refused: {}: '{}' cuts {}{:.3g} {} into {}, and deeper along every other direction that was "
+      "tried\n",
+      place_of(item, assembly), part, item.measured ? "" : "at least ", item.depth / assembly.normalization.scale, unit,
+      other);
 }
 
 Loaded load(const ReplayOptions& options, const Session& session, RunContext& context) {
@@ -95,7 +109,8 @@ Loaded load(const ReplayOptions& options, const Session& session, RunContext& co
     std::map<std::string, PartId> ids;
     for (const Part& part : loaded.assembly.parts) ids.emplace(part.name, part.id);
     for (const PlanReferenceStep& step : loaded.plan.assembly.reference_order) {
-      ReferenceStep& out = loaded.assembly.reference_order.emplace_back(ReferenceStep{step.step, {}, step.group, step.up});
+      ReferenceStep& out =
+          loaded.assembly.reference_order.emplace_back(ReferenceStep{step.step, {}, step.group, step.up});
       for (const std::string& name : step.parts) out.parts.push_back(ids.at(name));
     }
     return {std::move(loaded.assembly), std::move(loaded.plan)};
@@ -121,45 +136,45 @@ int replay_order(const ReplayOptions& options) {
   RunContext replaying = context;
   replaying.deadline = Deadline();  // the time limit is that of planning
   const Verifier verifier(assembly, verify, replaying);
-  const std::vector<ReplayedItem> items = replay(assembly, assembly.reference_order, verifier, replaying);
-  console.end_progress();
+  const std::vector<ReplayedItem> items =
+      replay(assembly, assembly.reference_order, verifier, replaying, [&](const ReplayedItem& item) {
+        console.text(item_text(item, assembly));  // as it goes
+      });
   if (context.cancel.cancelled()) throw Stopped(context, "interrupted before all steps were tried");
 
-  std::string text;
   std::size_t refused = 0;
   auto list = nlohmann::ordered_json::array();
   for (const ReplayedItem& item : items) {
     list.push_back(item_json(item, assembly));
-    if (item.possible) continue;
-    ++refused;
-    text += item_text(item, assembly);
+    if (!item.possible) ++refused;
   }
-  text += fmt::format("{} of {} insertions of the order are possible, {} refused\n", items.size() - refused,
-                      items.size(), refused);
-  console.text(text);  // planning may take long
-  text.clear();
+  console.text(fmt::format("{} of {} insertions of the order are possible, {} refused\n", items.size() - refused,
+                           items.size(), refused));  // planning may take long
+  std::string text;
   if (!loaded.plan && !options.no_plan) {
     if (const double timeout = session.config().run.timeout; timeout > 0)
       context.deadline = Deadline::after_seconds(timeout);
     loaded.plan = session.plan(loaded.model, context).plan;
     console.end_progress();
   }
-  nlohmann::ordered_json json = {{"status", refused == 0 ? "complete" : "partial"},
-                                 {"reason", refused == 0 ? nlohmann::ordered_json() : nlohmann::ordered_json("refused")},
-                                 {"parts", assembly.parts.size()},
-                                 {"steps", assembly.reference_order.size()},
-                                 {"possible", items.size() - refused},
-                                 {"refused", refused},
-                                 {"items", list}};
+  nlohmann::ordered_json json = {
+      {"status", refused == 0 ? "complete" : "partial"},
+      {"reason", refused == 0 ? nlohmann::ordered_json() : nlohmann::ordered_json("refused")},
+      {"parts", assembly.parts.size()},
+      {"steps", assembly.reference_order.size()},
+      {"possible", items.size() - refused},
+      {"refused", refused},
+      {"items", list}};
   if (loaded.plan) {
-    const Agreement agreement = agreement_of(order_of(named(assembly.reference_order, assembly)), order_of(*loaded.plan),
-                                             classes_of(loaded.plan->assembly));
+    const Agreement agreement = agreement_of(order_of(named(assembly.reference_order, assembly)),
+                                             order_of(*loaded.plan), classes_of(loaded.plan->assembly));
     json["tau"] = agreement.tau ? nlohmann::ordered_json(*agreement.tau) : nlohmann::ordered_json();
     json["common"] = agreement.common;
     json["plan_status"] = std::string(to_string(loaded.plan->status));
-    text += agreement.tau ? fmt::format("agreement with the order of the plan: tau-b {:.3f} ({} parts)\n", *agreement.tau,
-                                        agreement.common)
-                          : std::string("agreement with the order of the plan: one of them leaves all parts together\n");
+    text += agreement.tau
+                ? fmt::format("agreement with the order of the plan: tau-b {:.3f} ({} parts)\n", *agreement.tau,
+                              agreement.common)
+                : std::string("agreement with the order of the plan: one of them leaves all parts together\n");
   }
   json["plan"] = nullptr;
   console.text(text);
@@ -172,10 +187,14 @@ int replay_order(const ReplayOptions& options) {
 void add_replay(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("replay", "Try the order in which people build an assembly, step by step");
   auto options = std::make_shared<ReplayOptions>();
-  command->add_option("MODEL|PLAN.json", options->input, "Model with building steps (LDraw), or any input with --order; or a plan of it")
+  command
+      ->add_option("MODEL|PLAN.json", options->input,
+                   "Model with building steps (LDraw), or any input with --order; or a plan of it")
       ->required()
       ->option_text(" ");
-  command->add_option("--order", options->order, "CSV file with the columns step and part: this order, not that of the model")
+  command
+      ->add_option("--order", options->order,
+                   "CSV file with the columns step and part: this order, not that of the model")
       ->option_text("ORDER.csv");
   command->add_flag("--no-plan", options->no_plan, "Do not plan a model to compare the orders");
   options->config.add_file_and_set(*command);
@@ -184,8 +203,10 @@ void add_replay(CLI::App& app, Action& action) {
   add_format(*command, options->console);
   add_verbosity(*command, options->console);
   command->footer(
-      "Goes through the order backwards, with sub-models as groups. What a step puts in is pulled straight out of what\n"
-      "is there, and the verifier confirms it. A refused one is explained: pair, depth, place. Writes nothing.\n"
+      "Goes through the order backwards, with sub-models as groups. What a step puts in is pulled straight out of "
+      "what\n"
+      "is there, and the verifier confirms it. A line for each; a refused one is explained: pair, depth, place. Writes "
+      "nothing.\n"
       "Then a model is planned to say how much the two orders agree (Kendall's tau-b, 1 = the same order).\n"
       "Exit status: 0 all steps are possible, 1 some are refused.\n"
       "Examples:\n  dismantle replay truck.mpd\n  dismantle replay out/plan.json --order mine.csv");

@@ -59,6 +59,7 @@ void Console::end_progress() { progress_ = std::make_unique<Progress>(Progress::
 
 void Console::text(std::string_view text) {
   if (options_.quiet) return;
+  progress_->hide();
   std::FILE* stream = options_.format == Format::json ? stderr : stdout;
   std::fwrite(text.data(), 1, text.size(), stream);
   std::fflush(stream);

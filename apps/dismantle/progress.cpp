@@ -129,6 +129,11 @@ void Progress::line(std::string_view text) {
   put(fmt::format("{}\n", text));
 }
 
+void Progress::hide() {
+  const std::lock_guard lock(mutex_);
+  clear();
+}
+
 void Progress::draw(Clock::time_point now) {
   const std::size_t cells = 24;  // of the bar
   drawn_ = now;

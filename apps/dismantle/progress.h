@@ -34,6 +34,8 @@ class Progress {
   std::string busy_with();
   /// Prints a line above the bar.
   void line(std::string_view text);
+  /// Clears the bar until the next event, for output that is not a line().
+  void hide();
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "dismantle/executor.h"
 #include "dismantle/part_set.h"
 #include "own_axes.h"
+#include "sweeps_over.h"
 
 namespace dismantle {
 
@@ -24,22 +24,6 @@ namespace {
 
 constexpr double kSameDirection = 1 - 1e-9;  // cosine
 constexpr std::size_t kMostUsed = 12;        // directions of the plan that are tried for every part
-
-/// Along `d`, does the box touch the other before it is past it?
-bool sweeps_over(const Aabb& box, const Aabb& other, const Vector3d& d) {
-  double from = 0, to = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 3; ++k) {
-    const double low = other.lo[k] - box.hi[k], high = other.hi[k] - box.lo[k];
-    if (d[k] == 0) {
-      if (low > 0 || high < 0) return false;
-      continue;
-    }
-    const double a = low / d[k], b = high / d[k];
-    from = std::max(from, std::min(a, b));
-    to = std::min(to, std::max(a, b));
-  }
-  return from <= to;
-}
 
 /// Of the last stretch; zero: a rotation in place.
 Vector3d last_direction(const Path& path) {

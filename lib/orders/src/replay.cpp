@@ -1,6 +1,7 @@
 #include "dismantle/orders/replay.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -8,9 +9,9 @@
 #include <utility>
 
 #include "dismantle/part_set.h"
-#include "dismantle/verification/motion_depth.h"
 #include "own_axes.h"
 #include "reference_groups.h"
+#include "straight_cuts.h"
 
 namespace dismantle {
 namespace {
@@ -24,13 +25,14 @@ std::vector<PlacedPart> as_assembled(const std::vector<PartId>& parts) {
 class Replay {
  public:
   Replay(const Assembly& assembly, const std::vector<ReferenceStep>& order, const Verifier& verifier,
-         const RunContext& context)
+         const RunContext& context, const std::function<void(const ReplayedItem&)>& seen)
       : assembly_(assembly),
         order_(order),
         verifier_(verifier),
         context_(context),
         groups_(order),
-        meter_(assembly, verifier) {
+        seen_(seen),
+        cuts_(assembly, verifier) {
     Aabb all;
     for (const Part& part : assembly.parts) all.extend(part.mesh->box());
     far_ = all.empty() ? 1 : 1.1 * all.size().norm();
@@ -70,96 +72,145 @@ class Replay {
   /// away, and the others are tried again.
   void take_out(std::vector<ReplayedItem> items, std::vector<PartId>& left) {
     while (!items.empty() && !context_.should_stop()) {
-      const auto leaving = std::find_if(items.begin(), items.end(), [&](ReplayedItem& item) {
+      auto next = std::find_if(items.begin(), items.end(), [&](ReplayedItem& item) {
         const std::vector<PartId> rest = without(left, item.parts);
         return rest.empty() || leaves(item, rest);
       });
-      if (leaving != items.end()) {
-        done(std::move(*leaving), left);
-        items.erase(leaving);
-        continue;
+      if (context_.should_stop()) return;
+      if (next == items.end()) next = least_of(items, left);
+      if (next == items.end()) return;  // stopped
+      left = without(left, next->parts);
+      if (!left.empty()) {  // else it is what the others are put to
+        context_.progress("replay", out_.size() + 1, assembly_.parts.size(), assembly_.parts[next->parts.front()].name);
+        if (seen_) seen_(*next);
+        out_.push_back(std::move(*next));
       }
-      for (ReplayedItem& item : items) explain(item, without(left, item.parts));
-      const auto least =
-          std::min_element(items.begin(), items.end(), [](const auto& a, const auto& b) { return a.depth < b.depth; });
-      left = without(left, least->parts);
-      out_.push_back(std::move(*least));
-      items.erase(least);
+      items.erase(next);
     }
-  }
-
-  void done(ReplayedItem item, std::vector<PartId>& left) {
-    left = without(left, item.parts);
-    if (left.empty()) return;  // what the others are put to
-    item.possible = true;
-    context_.progress("replay", out_.size() + 1, assembly_.parts.size(), assembly_.parts[item.parts.front()].name);
-    out_.push_back(std::move(item));
   }
 
   Path straight(const ReplayedItem& item, const Eigen::Vector3d& along) const {
     return {std::vector<Pose>(item.parts.size()), std::vector<Pose>(item.parts.size(), Pose{far_ * along, Pose{}.q})};
   }
 
-  /// What is known of a straight motion out of what was there at some time. What is there later is part of it, so a
-  /// part that is still there is in the way as it was.
-  struct Straight {
-    std::optional<PartId> blocker{};   ///< a part that the verifier refused
-    std::optional<MotionDepth> cut{};  ///< the deepest pair
-    bool whole = false;                ///< `cut` is not only a lower bound
-  };
-
-  /// The motions along the own axes, both ways. `visit(direction, known)` returns whether to go on.
-  template <class Visit>
-  void for_directions(const ReplayedItem& item, Visit visit) {
-    std::size_t index = 0;
-    for (const Eigen::Vector3d& axis : own_axes(item.parts, assembly_))
-      for (const double sign : {1.0, -1.0})
-        if (!visit(Eigen::Vector3d(sign * axis), known_[{item.parts, index++}])) return;
+  /// Along the own axes, both ways.
+  std::vector<Eigen::Vector3d> directions(const ReplayedItem& item) const {
+    std::vector<Eigen::Vector3d> out;
+    for (const Eigen::Vector3d& axis : own_axes(item.parts, assembly_)) {
+      out.push_back(axis);
+      out.push_back(-axis);
+    }
+    return out;
   }
 
   static bool has(const std::vector<PartId>& sorted, PartId part) {
     return std::binary_search(sorted.begin(), sorted.end(), part);
   }
 
-  /// `rest`: ascending.
-  bool leaves(ReplayedItem& item, const std::vector<PartId>& rest) {
-    bool found = false;
-    for_directions(item, [&](const Eigen::Vector3d& out, Straight& known) {
-      if (known.blocker && has(rest, *known.blocker)) return true;
-      const MotionCheck check = verifier_.check_motion(item.parts, as_assembled(rest), straight(item, out), context_);
-      if (check.valid) {
-        item.direction = -out;
-        found = true;
-      } else if (check.violation && !check.interrupted) {
-        known.blocker = has(rest, check.violation->other) ? check.violation->other : check.violation->part;
-      }
-      return !found && !context_.should_stop();
-    });
-    return found;
+  /// The same with the part that leaves as the first.
+  static Violation of_moving(Violation violation, const std::vector<PartId>& rest) {
+    if (!has(rest, violation.other)) std::swap(violation.part, violation.other);
+    return violation;
   }
 
-  /// Where it cuts in least.
-  void explain(ReplayedItem& item, const std::vector<PartId>& rest) {
-    double least = std::numeric_limits<double>::infinity();
-    for_directions(item, [&](const Eigen::Vector3d& out, Straight& known) {
-      const bool holds = known.cut && has(rest, known.cut->other);
-      if (holds && known.cut->excess() >= least) return true;
-      if (!holds || !known.whole) {
-        MotionDepthOptions options;
-        options.stop_above = least;
-        known.cut = meter_.deepest(item.parts, as_assembled(rest), straight(item, out), options, context_);
-        if (context_.should_stop()) return false;
-        known.whole = known.cut && known.cut->excess() <= least;
+  /// `rest`: ascending. A pair that the verifier refused is in the way as long as its part is there.
+  bool leaves(ReplayedItem& item, const std::vector<PartId>& rest) {
+    std::vector<std::optional<Violation>>& refused = refused_[item.parts];
+    const std::vector<Eigen::Vector3d> all = directions(item);
+    refused.resize(all.size());
+    for (std::size_t k = 0; k < all.size() && !context_.should_stop(); ++k) {
+      if (refused[k] && has(rest, refused[k]->other)) continue;
+      const MotionCheck check =
+          verifier_.check_motion(item.parts, as_assembled(rest), straight(item, all[k]), context_);
+      if (check.valid) {
+        item.direction = -all[k];
+        item.possible = true;
+        return true;
       }
-      if (!known.cut || !(known.cut->excess() < least)) return true;
-      least = known.cut->excess();
-      item.direction = -out;
-      item.part = known.cut->part;
-      item.other = known.cut->other;
-      item.depth = known.cut->excess();
-      item.at = known.cut->point;
-      return true;
-    });
+      if (check.violation && !check.interrupted) refused[k] = of_moving(*check.violation, rest);
+    }
+    return false;
+  }
+
+  using Items = std::vector<ReplayedItem>;
+
+  struct Stuck {
+    Items::iterator item;
+    std::vector<PartId> rest;  // out of which it cannot be pulled
+  };
+
+  bool would_leave(ReplayedItem item, const std::vector<PartId>& rest) { return leaves(item, rest); }
+
+  /// Of items that all cannot leave, those that are not only waiting for others: they cannot leave when the others are
+  /// gone. If they lock each other: those without which another one leaves; else all.
+  std::vector<Stuck> stuck(Items& items, const std::vector<PartId>& left) {
+    std::vector<PartId> others_gone = left;
+    for (const ReplayedItem& item : items) others_gone = without(others_gone, item.parts);
+    std::vector<Stuck> held, locking, all;
+    for (auto item = items.begin(); item != items.end(); ++item)
+      if (!would_leave(*item, others_gone)) held.push_back({item, others_gone});
+    if (!held.empty()) return held;
+    for (auto item = items.begin(); item != items.end(); ++item) {
+      const std::vector<PartId> rest = without(left, item->parts);
+      all.push_back({item, rest});
+      if (std::any_of(items.begin(), items.end(), [&](const ReplayedItem& other) {
+            return &other != &*item && would_leave(other, without(rest, other.parts));
+          }))
+        locking.push_back({item, rest});
+    }
+    return locking.empty() ? all : locking;
+  }
+
+  struct Motion {
+    const Stuck* of = nullptr;
+    Eigen::Vector3d out;
+    double at_least = 0;
+  };
+
+  /// The item that cuts in least, explained; the end: told to stop. What rays find shallow is measured first.
+  Items::iterator least_of(Items& items, const std::vector<PartId>& left) {
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    const std::vector<Stuck> candidates = stuck(items, left);
+    std::vector<Motion> motions;
+    for (const Stuck& s : candidates)
+      for (const Eigen::Vector3d& out : directions(*s.item)) {
+        const auto seen = cuts_.by_rays(s.item->parts, s.rest, out, kAny, context_);
+        motions.push_back({&s, out, seen ? seen->excess() : 0});
+      }
+    std::stable_sort(motions.begin(), motions.end(),
+                     [](const Motion& a, const Motion& b) { return a.at_least < b.at_least; });
+    const Motion* best = nullptr;
+    double least = kAny;
+    for (const Motion& m : motions) {
+      if (m.at_least >= least) break;
+      const auto cut = cuts_.deepest(m.of->item->parts, m.of->rest, m.out, least, context_);
+      if (context_.should_stop()) return items.end();
+      const double excess = cut ? cut->excess() : 0;
+      if (!(excess < least)) continue;
+      least = excess;
+      best = &m;
+    }
+    explain(*best->of->item, best->out, best->of->rest);
+    return context_.should_stop() ? items.end() : best->of->item;
+  }
+
+  void explain(ReplayedItem& item, const Eigen::Vector3d& out, const std::vector<PartId>& rest) {
+    item.direction = -out;
+    const std::vector<Eigen::Vector3d> all = directions(item);
+    const auto index = static_cast<std::size_t>(std::find(all.begin(), all.end(), out) - all.begin());
+    if (const std::optional<Violation>& refused = refused_[item.parts][index]) {  // may be a proof that failed
+      item.part = refused->part;
+      item.other = refused->other;
+      item.at = refused->point;
+    }
+    if (const auto cut = cuts_.exactly(item.parts, rest, out, context_);
+        cut && cut->excess() > verifier_.options().max_penetration) {
+      item.part = cut->part;
+      item.other = cut->other;
+      item.depth = cut->excess();
+      item.at = cut->point;
+      item.measured = cut->proved;
+    }
   }
 
   const Assembly& assembly_;
@@ -167,18 +218,20 @@ class Replay {
   const Verifier& verifier_;
   const RunContext& context_;
   const ReferenceGroups<ReferenceStep> groups_;
-  MotionDepthMeter meter_;
+  const std::function<void(const ReplayedItem&)>& seen_;
+  StraightCuts cuts_;
   double far_ = 1;  // after so far, everything is apart
   std::set<std::string> around_;
-  std::map<std::pair<std::vector<PartId>, std::size_t>, Straight> known_;  // by parts and number of the direction
+  std::map<std::vector<PartId>, std::vector<std::optional<Violation>>> refused_;  // by item and direction
   std::vector<ReplayedItem> out_;
 };
 
 }  // namespace
 
 std::vector<ReplayedItem> replay(const Assembly& assembly, const std::vector<ReferenceStep>& order,
-                                 const Verifier& verifier, const RunContext& context) {
-  return Replay(assembly, order, verifier, context).run();
+                                 const Verifier& verifier, const RunContext& context,
+                                 const std::function<void(const ReplayedItem&)>& seen) {
+  return Replay(assembly, order, verifier, context, seen).run();
 }
 
 }  // namespace dismantle

@@ -62,8 +62,11 @@ TEST(Agreement, EqualPartsStandForEachOther) {
 
 TEST(Order, SubModelsStandWhereTheyArePutIn) {
   const std::vector<PlanReferenceStep> reference{
-      {1, {"base"}, "", {0, 0, 1}},       {1, {"wheel"}, "cart", {0, 0, 1}},       {2, {"pin", "axle"}, "cart", {0, 0, 1}},
-      {2, {"axle", "pin", "top", "wheel"}, "", {0, 0, 1}}, {3, {"flag"}, "", {0, 0, 1}},
+      {1, {"base"}, "", {0, 0, 1}},
+      {1, {"wheel"}, "cart", {0, 0, 1}},
+      {2, {"pin", "axle"}, "cart", {0, 0, 1}},
+      {2, {"axle", "pin", "top", "wheel"}, "", {0, 0, 1}},
+      {3, {"flag"}, "", {0, 0, 1}},
   };
   EXPECT_EQ(parts_of(order_of(reference)),
             (std::vector<std::vector<std::string>>{{"base"}, {"top"}, {"wheel"}, {"axle", "pin"}, {"flag"}}));
@@ -101,10 +104,11 @@ TEST(Order, CsvFilesAreReadAndErrorsHaveAPlace) {
   const Order order = read("step,part,direction\r\n2,\"lid, large\",-z\r\n1,base,\r\n2,pin,0 3 4\r\n");
   EXPECT_EQ(parts_of(order), (std::vector<std::vector<std::string>>{{"base"}, {"lid, large", "pin"}}));
   EXPECT_LT((*order[1].direction - Eigen::Vector3d(0, 0.6, 0.8)).norm(), 1e-12);
-  for (const auto& [text, problem] : {std::pair("part\na\n", ":1: the header needs"), std::pair("step,part\nx,a\n", ":2: 'x' is no"),
-                                      std::pair("step,part\n1,a\n2,a\n", ":3: part 'a' is there twice"),
-                                      std::pair("step,part,direction\n1,a,up\n", ":2: 'up' is no direction"),
-                                      std::pair("step,part\n", "it holds no step")}) {
+  for (const auto& [text, problem] :
+       {std::pair("part\na\n", ":1: the header needs"), std::pair("step,part\nx,a\n", ":2: 'x' is no"),
+        std::pair("step,part\n1,a\n2,a\n", ":3: part 'a' is there twice"),
+        std::pair("step,part,direction\n1,a,up\n", ":2: 'up' is no direction"),
+        std::pair("step,part\n", "it holds no step")}) {
     try {
       read(text);
       FAIL() << text;
@@ -133,10 +137,11 @@ TEST(Replay, StepsThatArePossibleAndOthers) {
   ASSERT_EQ(items.size(), 3u);
   EXPECT_FALSE(items[0].possible);
   EXPECT_GT(items[0].depth, 0.1);
+  EXPECT_TRUE(items[0].measured);
   EXPECT_TRUE(items[2].possible);
   // Two blocks that are put in together, and were put together before.
-  const std::vector<ReferenceStep> grouped{{1, {0}, "", up},       {1, {2}, "pair", up}, {2, {3}, "pair", up},
-                                           {2, {2, 3}, "", up},    {3, {1}, "", up}};
+  const std::vector<ReferenceStep> grouped{
+      {1, {0}, "", up}, {1, {2}, "pair", up}, {2, {3}, "pair", up}, {2, {2, 3}, "", up}, {3, {1}, "", up}};
   items = replay(assembly, grouped, verifier, {});
   ASSERT_EQ(items.size(), 3u);
   EXPECT_FALSE(items[0].possible) << "the lowest block is below the pair";
@@ -144,6 +149,25 @@ TEST(Replay, StepsThatArePossibleAndOthers) {
   EXPECT_TRUE(items[1].possible);
   EXPECT_EQ(items[2].group, "pair");
   EXPECT_TRUE(items[2].possible);
+}
+
+/// Of the parts of a step, only what cannot leave by itself is refused, not what waits for it.
+TEST(Replay, WhatWaitsForAnotherIsNotRefused) {
+  const Assembly assembly = fake::tube_with_blocks(4);
+  const Verifier verifier(assembly, VerifyOptions{});
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  // The uppermost block was there before: the two below it cannot be put in, the upper of them no more than the lower.
+  const std::vector<ReferenceStep> order{{1, {0, 1, 4}, "", up}, {2, {2, 3}, "", up}};
+  std::size_t told = 0;
+  const std::vector<ReplayedItem> items =
+      replay(assembly, order, verifier, {}, [&](const ReplayedItem& item) { told += item.parts.size(); });
+  ASSERT_EQ(items.size(), 4u);
+  EXPECT_EQ(told, 4u);
+  for (std::size_t k : {0, 1}) {
+    EXPECT_FALSE(items[k].possible);
+    EXPECT_EQ(items[k].other, 4u) << "not the other block of the step";
+  }
+  for (std::size_t k : {2, 3}) EXPECT_TRUE(items[k].possible);
 }
 
 }  // namespace

@@ -1,43 +1,12 @@
 // How deep the motions of forced steps cut in: samples first, then a measurement along the whole path.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "dismantle/geometry/ray.h"
+#include "dismantle/geometry/ray_depth.h"
 #include "dismantle/geometry/solid.h"
 #include "least_cut/forced_motions.h"
 
 namespace dismantle::least_cut {
-
-namespace {
-
-/// Calls `found` with the depth below the surface of a part, and the distance along the ray, at some points where the
-/// ray is inside the part.
-template <class Found>
-void depths_along(const geometry::Solid& solid, const Eigen::Vector3d& from, const Eigen::Vector3d& along, double reach,
-                  const Found& found) {
-  const auto enters = [&](std::uint32_t t) { return solid.normals[t].dot(along) < 0; };
-  const auto leaves = [&](std::uint32_t t) { return solid.normals[t].dot(along) > 0; };
-  double at = 0;
-  bool inside = solid.box.squared_distance(from) == 0 && solid.bvh.inside(from);
-  for (int ray = 0; ray < 4 && at < reach; ++ray) {  // few rays cross a part more often
-    if (!inside) {
-      const double in = geometry::first_hit(solid.bvh, from + at * along, along, reach - at, enters);
-      if (!std::isfinite(in)) return;
-      at += in;
-    }
-    const double out =
-        std::min(reach - at, geometry::first_hit(solid.bvh, from + at * along, along, reach - at, leaves));
-    for (const double share : {0.25, 0.5, 0.75}) {  // depth is largest away from both surfaces
-      const double s = at + share * out;
-      found(-solid.bvh.signed_distance(from + s * along), s);
-    }
-    at += out;
-    inside = false;
-  }
-}
-
-}  // namespace
 
 std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, const MotionDepthOptions& options,
                                                 const RunContext& context) {
@@ -101,7 +70,7 @@ std::optional<MotionDepth> ForcedMotions::least_depth(const ForcedMotion& motion
       for (std::size_t v = 0; v < vertices.size(); v += stride) {
         if (worst && worst->excess() > enough) return;
         const Eigen::Vector3d x = of.pose * vertices[v];
-        depths_along(solid, back * x, local, distance, [&](double depth, double s) {
+        geometry::depths_along(solid, back * x, local, distance, [&](double depth, double s) {
           const MotionDepth here{moves ? of.part : in.part,
                                  moves ? in.part : of.part,
                                  depth,
