@@ -231,8 +231,9 @@ const Certificate* ProofSchedule::prove_pair(PartId a, PartId b, ProofEffort mos
   return nullptr;
 }
 
-/// Null also for snap fits. The cells of a proof of high effort are far smaller than what holds the parts beyond the
-/// tolerance: for a snap of a few tolerances it takes long and fails.
+/// Null also for pairs that a straight motion nearly parts: snap fits, and thin walls, which the verifier lets nothing
+/// through. The cells of a proof of high effort are far smaller than what holds the parts beyond the tolerance:
+/// for a snap of a few tolerances it takes long and fails, and for less than the tolerance it must fail.
 const Certificate* ProofSchedule::prove_reduced(PartId a, PartId b, const RunContext& context) {
   if (cuts_in_little(assembly_, verifier_, a, b, kSmallSnap * tolerance_, context)) return nullptr;
   return prove({{a, b}, ProofEffort::high, options_.reduced_tolerance}, context);

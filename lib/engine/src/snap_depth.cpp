@@ -40,7 +40,7 @@ bool cuts_in_little(const Assembly& assembly, const Verifier& verifier, PartId a
       if (context.should_stop()) return false;
       const Path out{{Pose{}}, {Pose{sign * far * axis.axis, Pose{}.q}}};
       const std::optional<MotionDepth> cut = meter.deepest({a}, {{b, Pose{}}}, out, options, context);
-      if (!cut || cut->excess() <= verifier.options().max_penetration) return false;  // it may be free
+      if (!cut) return false;  // free
       little = little || cut->excess() <= most;
     }
   return little;
