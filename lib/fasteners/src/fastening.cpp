@@ -184,7 +184,10 @@ class Screw {
     last = deepest([](const Stretch& s) { return s.around; });
     if (last == nullptr || !may_be_thread(*last)) return;
     for (const Stretch& s : stretches_)  // another bore without play is as likely to be the thread
-      if (s.part != last->part && reached(s) && kind(s.part) != Kind::washer && s.bore < kPlay * radius()) return;
+      if (s.part != last->part && reached(s) && kind(s.part) != Kind::washer && s.bore < kPlay * radius()) {
+        out_.perhaps = last->part;
+        return;
+      }
     thread_ = *last;
     out_.into.push_back(last->part);
   }

@@ -148,6 +148,37 @@ TEST(Fastening, SaysNothingWhereTheShapeDoesNot) {
   EXPECT_TRUE(faults_of(loose.assembly()).empty());
 }
 
+TEST(Fastening, OfBoresWithoutPlayTheLastMayBeTheThread) {
+  Stack stack;
+  stack.add_screw("screw", 10);
+  stack.add_plate("upper", 3, -4, 0);
+  const PartId lower = stack.add_plate("lower", 3, -10, -4);
+  const auto found = found_in(stack.assembly());
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found[0].into.empty());
+  EXPECT_EQ(found[0].perhaps, lower);
+}
+
+TEST(Fastening, ANutIsOnTheRodThatFillsItsHole) {
+  Rng rng(3);
+  for (const double hole : {2.5, 3.0, 3.2}) {
+    Stack stack;
+    const PartId rod =
+        stack.add("rod", turned_solid({{0, circle(0)}, {0, circle(3)}, {40, circle(3)}, {40, circle(0)}}));
+    const PartId nut = stack.add_nut("nut", 10, 5.5, hole);
+    stack.add_nut("on nothing", 60, 5.5, hole);
+    stack.add_plate("wide", 3.4, -20, -17);
+    const Assembly assembly = stack.assembly(shapes::random_pose(rng, 30));
+    std::vector<std::unique_ptr<TriangleBvh>> surfaces;
+    for (const Part& part : assembly.parts) surfaces.push_back(std::make_unique<TriangleBvh>(*part.mesh));
+    const auto on = nuts_on_rods(assembly, shapes_of(assembly, RunContext{}), {},
+                                 [&](PartId id) -> const TriangleBvh& { return *surfaces[id]; });
+    ASSERT_EQ(on.size(), 1u) << hole;
+    EXPECT_EQ(on[0].nut, nut);
+    EXPECT_EQ(on[0].rod, rod);
+  }
+}
+
 TEST(Fastening, FindsWhatIsWrong) {
   const auto faults = [](const std::function<void(Stack&)>& build) {
     Stack stack;

@@ -37,8 +37,10 @@ struct Fastening {
   PartId screw = 0;
   std::vector<PartId> clamps{};  ///< from the head to the thread, washers too; empty: nothing, or not known
   std::vector<PartId> into{};    ///< what has the thread, nearest to the head first; empty: not known
-  bool nut = false;              ///< `into` begins with nuts, inserts or stand-offs, not with a part that is threaded
-  std::vector<PartId> only{};    ///< of `clamps`, those that no other screw clamps or is driven into
+  /// `into` is empty: the last part whose bore has no play. It may be its thread; another bore may be as well.
+  std::optional<PartId> perhaps{};
+  bool nut = false;            ///< `into` begins with nuts, inserts or stand-offs, not with a part that is threaded
+  std::vector<PartId> only{};  ///< of `clamps`, those that no other screw clamps or is driven into
   std::vector<FasteningFault> faults{};
 };
 
@@ -50,6 +52,14 @@ using SurfaceOf = std::function<const TriangleBvh&(PartId)>;
 /// and it lies without gap between the head and the thread. @throws Error when `context` wants to stop.
 DISMANTLE_API std::vector<Fastening> fastenings_of(const Assembly& assembly, std::span<const Shape> shapes,
                                                    const SurfaceOf& surface, const RunContext& context);
+
+/// A nut on the thread of a part that is no screw.
+struct NutOnRod {
+  PartId nut = 0, rod = 0;
+};
+/// Nuts, by Part::kind, that are not on a screw of `fastenings` and whose hole another part fills.
+DISMANTLE_API std::vector<NutOnRod> nuts_on_rods(const Assembly& assembly, std::span<const Shape> shapes,
+                                                 std::span<const Fastening> fastenings, const SurfaceOf& surface);
 
 /// "clamps 'lid' to 'housing'; driven into 'housing'; no other screw holds 'lid'". Empty: nothing is known.
 DISMANTLE_API std::string fastening_text(const Assembly& assembly, const Fastening& fastening);
