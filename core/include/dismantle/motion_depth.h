@@ -28,9 +28,6 @@ struct MotionDepthOptions {
   /// Assembly units: depth that no pair exceeds on the path, as another check has proved. Measuring ends when this
   /// leaves no larger depth to find.
   double at_most = std::numeric_limits<double>::infinity();
-  /// The initial overlap is deducted wherever a pair is: for comparisons. Else only in its region, beside which all
-  /// counts.
-  bool deduct_everywhere = false;
   bool known_invalid = false;  ///< no pair's motion is valid, so validity is not checked before measuring
 };
 

@@ -184,9 +184,8 @@ std::optional<MotionDepth> MotionDepthMeter::deepest(const std::vector<PartId>& 
       proved = impl_->pair(moving[i], motion, other, options, context,
                            valid_ones ? 0 : impl_->assembly.initial_overlap(moving[i], other.part), worst) &&
                proved;
-      const auto region = valid_ones || options.deduct_everywhere
-                              ? std::nullopt
-                              : impl_->verifier.overlap_region(moving[i], other.part);
+      const bool coarse = options.absolute > impl_->verifier.options().max_penetration;
+      const auto region = valid_ones || coarse ? std::nullopt : impl_->verifier.overlap_region(moving[i], other.part);
       if (region && !(worst && worst->excess() > options.stop_above))
         proved = impl_->elsewhere(moving[i], motion, other, *region, options, context, worst) && proved;
       if (worst && worst->excess() > options.stop_above) return worst;

@@ -11,7 +11,7 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kFineShare = 0.03;  // a stated depth is written with two digits
 constexpr double kClearlyLess = 0.95;
-constexpr double kEqualSums = 1.1;  // of sums up to this factor the number of steps decides
+constexpr double kEqualSums = 1.1;   // of sums up to this factor the number of steps decides
 
 bool cuts_less(const Choice& a, const Choice& b) { return a.excess() < b.excess(); }
 
@@ -84,9 +84,8 @@ std::vector<Choice> Comparison::compared(const std::vector<Placed>& groups, cons
   };
   const auto measure = [&](const ForcedMotion& m, double stop_above) {
     if (context.should_stop() || (scope.depths != nullptr && *scope.depths == 0)) return false;
-    MotionDepthOptions options{params_.depth_resolution * tolerance_, params_.depth_share, stop_above,
-                               static_cast<std::uint64_t>(params_.depth_poses)};
-    options.deduct_everywhere = true;  // what is chosen is measured without
+    const MotionDepthOptions options{params_.depth_resolution * tolerance_, params_.depth_share, stop_above,
+                                     static_cast<std::uint64_t>(params_.depth_poses)};
     Choice now{m, motions_.depth(m, options, context)};
     if (context.should_stop()) return false;
     if (scope.depths != nullptr) --*scope.depths;
@@ -155,8 +154,9 @@ std::vector<Choice> Comparison::of_best_outlook(const std::vector<Choice>& list,
     if (!sum) break;
     sums.emplace_back(*sum, &choice);
   }
-  const auto best = std::min_element(sums.begin(), sums.end(),
-                                     [](const auto& a, const auto& b) { return a.first.better_than(b.first); });
+  const auto best = std::min_element(sums.begin(), sums.end(), [](const auto& a, const auto& b) {
+    return a.first.better_than(b.first);
+  });
   if (best == sums.end()) return list;
   std::vector<Choice> result;
   for (const Choice& choice : list)

@@ -23,7 +23,8 @@ class DISMANTLE_API MotionDepthMeter {
   /// The pair with the largest excess when `moving` follows `path` (columns as `moving`) past `fixed`. A depth changes
   /// by no more than a point travels, which bounds it between measured poses. The interval with the highest bound is
   /// halved until none can hold more than was found. Outside the region of an initial overlap (Verifier, law 3) nothing
-  /// is allowed: there `allowed` is 0. When told to stop, returns the deepest pair so far, not `proved`.
+  /// is allowed: there `allowed` is 0; not looked at when the answer may be off by more than the verifier's tolerance
+  /// (`absolute`), as for a comparison. When told to stop, returns the deepest pair so far, not `proved`.
   /// Returns nullopt when nothing was measured, also because no pair came into reach. `valid_ones`: pairs with a valid
   /// motion are measured, too, and the initial overlap is not deducted; else such pairs count as not penetrating.
   std::optional<MotionDepth> deepest(const std::vector<PartId>& moving, const std::vector<PlacedPart>& fixed,
