@@ -124,6 +124,7 @@ void Segment::add_planned(const Removal* planned, const UnitSet& present) {
             UnitSet(units()),
             present,
             UnitSet(units()),
+            UnitSet(units()),
             {},
             {},
             0};
@@ -149,6 +150,7 @@ void Segment::add_straight(std::size_t unit) {
     });
     if (there) continue;
     Move move{{ids_of(parts_[unit]), d, nullptr, -scene_.directions.all[d]},
+              UnitSet(units()),
               UnitSet(units()),
               UnitSet(units()),
               UnitSet(units()),
@@ -231,7 +233,7 @@ std::vector<VariantId> Segment::as_planned() const { return planned_; }
 
 bool Segment::may_leave(VariantId v, const UnitSet& present) {
   Move& move = moves_[variants_[v].move];
-  if (move.blocking.intersects(present)) return false;
+  if (move.blocking.intersects(present) || move.unknown.intersects(present)) return false;
   bool held = false;
   move.units.each([&](std::size_t u) {
     held = held || (!needs_gone_[u].empty() && needs_gone_[u].intersects(present - move.units));
@@ -305,7 +307,10 @@ bool Segment::is_in_the_way(Move& move, std::size_t unit) {
     });
   }
   unsure_ = unsure_ || spent;
-  if (spent) return true;
+  if (spent) {  // sweeps that are spent do not come back: it is not asked about again
+    move.unknown.insert(unit);
+    return true;
+  }
   (blocks ? move.blocking : move.free).insert(unit);
   return blocks;
 }

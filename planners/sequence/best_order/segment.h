@@ -92,6 +92,7 @@ class Segment final : public Problem {
     Motion motion;
     UnitSet units;
     UnitSet free, blocking;               ///< units that are known not to be in the way, or to be
+    UnitSet unknown;                      ///< for which no sweep is left: taken to be in the way
     UnitSet needs;                        ///< as blocking(): these, and those that have to leave before
     std::vector<std::vector<Pose>> path;  ///< of a planned step: until it is apart from all of the start
     std::size_t course = 0;               ///< number of the direction of insertion
