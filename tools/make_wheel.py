@@ -94,7 +94,7 @@ def write_wheel(package, out):
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     name, version = project["name"], project["version"]
     libc = platform.libc_ver()[1].replace(".", "_")
-    python = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    python = "cp" + re.search(r"cpython-(\d+)", next(package.glob("_core*.so")).name).group(1)
     tag = f"{python}-{python}-manylinux_{libc}_{platform.machine()}"
     info = f"{name}-{version}.dist-info"
     texts = {
