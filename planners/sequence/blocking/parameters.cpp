@@ -85,6 +85,7 @@ void BlockingParameters::describe(Schema<BlockingParameters>& s) {
   s.advanced("snap_depth", &BlockingParameters::snap_depth, {2, 1000});
   s.advanced("snap_depth_of_few", &BlockingParameters::snap_depth_of_few, {2, 1000});
   s.advanced("snap_directions", &BlockingParameters::snap_directions, {1, 1000});
+  s.advanced("snap_poses", &BlockingParameters::snap_poses, {1});
   s.advanced("snap_group", &BlockingParameters::snap_group);
   s.advanced("pair_depth", &BlockingParameters::pair_depth, {1});
 }

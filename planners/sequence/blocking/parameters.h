@@ -110,6 +110,7 @@ struct SnapParameters {
   /// be `snap_failures` of them.
   unsigned snap_depth_of_few = 3;
   unsigned snap_directions = 24;  ///< Largest number of directions that are measured for one part.
+  std::int64_t snap_poses = 200;  ///< Poses measured for each pair of parts and direction.
   unsigned snap_group = 32;       ///< Largest group in which snap fits that hold each other are looked for.
 };
 

@@ -107,22 +107,31 @@ std::optional<MotionDepth> SnapFits::measure(const GroupState& group, Subassembl
 std::optional<MotionDepth> SnapFits::along(const GroupState& group, SubassemblyId id, std::size_t direction,
                                            const Subassemblies& blockers) {
   const PartId part = state_.part_of(id);
-  const Pose& begin = state_.pose(part);
   const double length = straight_->length_out(group, {id}, direction);
-  const Pose end{begin.t + length * straight_->directions().all[direction], begin.q};
   std::optional<MotionDepth> worst;
   for (const PartId other : state_.parts_of(blockers)) {
-    MotionDepthOptions options;
-    options.stop_above = deepest_snap(part, other);
-    options.absolute = 0.1 * options.stop_above;
-    options.known_invalid = true;
-    const std::optional<MotionDepth> cut =
-        oracle_.forcing()->depth({part}, {{other, state_.pose(other)}}, {{begin}, {end}}, options, state_.context());
+    const std::optional<MotionDepth> cut = of_pair(part, other, direction, length);
     if (!cut || state_.context().should_stop()) continue;
-    if (cut->excess() > options.stop_above) return std::nullopt;
+    if (cut->excess() > deepest_snap(part, other)) return std::nullopt;
     if (!worst || cut->excess() > worst->excess()) worst = cut;
   }
   return worst;
+}
+
+std::optional<MotionDepth> SnapFits::of_pair(PartId part, PartId other, std::size_t direction, double length) {
+  const Pose &begin = state_.pose(part), &there = state_.pose(other);
+  const auto known = pairs_.find({part, other, direction});
+  if (known != pairs_.end() && known->second.part == begin && known->second.other == there) return known->second.cut;
+  MotionDepthOptions options;
+  options.stop_above = deepest_snap(part, other);
+  options.absolute = std::max(0.1 * options.stop_above, oracle_.tolerance());
+  options.most_poses = static_cast<std::uint64_t>(params_.snap_poses);
+  options.known_invalid = true;
+  const Pose end{begin.t + length * straight_->directions().all[direction], begin.q};
+  PairCut found{begin, there, {}};
+  found.cut = oracle_.forcing()->depth({part}, {{other, there}}, {{begin}, {end}}, options, state_.context());
+  if (state_.context().should_stop()) return found.cut;
+  return pairs_.insert_or_assign({part, other, direction}, std::move(found)).first->second.cut;
 }
 
 }  // namespace dismantle::blocking

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,13 @@ class SnapFits {
   std::optional<MotionDepth> measure(const GroupState& group, SubassemblyId id);
   std::optional<MotionDepth> along(const GroupState& group, SubassemblyId id, std::size_t direction,
                                    const Subassemblies& blockers);
+  /// How deep a part cuts into one that is in its way, as it leaves; the same in every group of both.
+  std::optional<MotionDepth> of_pair(PartId part, PartId other, std::size_t direction, double length);
+
+  struct PairCut {
+    Pose part, other;  ///< where they stood
+    std::optional<MotionDepth> cut{};
+  };
 
   const DisassemblyState& state_;
   PathOracle& oracle_;
@@ -59,7 +67,8 @@ class SnapFits {
   /// By part and the others of its group, in one arrangement.
   std::map<std::pair<SubassemblyId, Subassemblies>, std::optional<MotionDepth>> known_;
   std::uint64_t arrangement_ = 0;
-  bool known_before_;  ///< an earlier planner of the run has left parts
+  std::map<std::tuple<PartId, PartId, std::size_t>, PairCut> pairs_;  ///< the last is the direction
+  bool known_before_;                                                 ///< an earlier planner of the run has left parts
   /// Parts whose deep searches found nothing, with the greatest depth, since a search found something.
   std::map<SubassemblyId, unsigned> failed_{};
 };

@@ -39,7 +39,7 @@ class TranslationSearch::Arrangements {
 
   std::size_t size() const { return nodes_.size(); }
   /// Adds the arrangements that follow an arrangement. Ends early, with the translations that lead there and the last
-  /// one that never ends, if parts can leave.
+  /// one that never ends, if parts can leave. Also when the work of the search is used up.
   std::optional<std::vector<Translation>> expand(std::size_t node);
 
  private:
@@ -61,7 +61,7 @@ class TranslationSearch::Arrangements {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
   std::size_t count() const { return ids_.size(); }
-  void measure(const std::vector<Vec3>& at, std::size_t direction);
+  bool measure(const std::vector<Vec3>& at, std::size_t direction);
   Set taken_along(std::size_t part, double length) const;
   Set fewest_that_leave() const;
   double next_flush(const std::vector<Vec3>& at, std::size_t part, std::size_t direction);
@@ -203,11 +203,14 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
   return both;
 }
 
-/// Measures how far each part can move along a direction until it meets each other part.
-void TranslationSearch::Arrangements::measure(const std::vector<Vec3>& at, std::size_t direction) {
+/// Measures how far each part can move along a direction until it meets each other part. False: the work is used up.
+bool TranslationSearch::Arrangements::measure(const std::vector<Vec3>& at, std::size_t direction) {
   for (std::size_t i = 0; i < count(); ++i)
-    for (std::size_t j = 0; j < count(); ++j)
+    for (std::size_t j = 0; j < count(); ++j) {
+      if (search_.work_ > search_.most_work_) return false;
       free_[i * count() + j] = i == j ? kInfinity : search_.free_distance(ids_[i], ids_[j], at[i] - at[j], direction);
+    }
+  return true;
 }
 
 /// All parts that move when a part moves by `length`: each part takes along the parts that it runs into.
@@ -247,6 +250,8 @@ double TranslationSearch::Arrangements::next_flush(const std::vector<Vec3>& at, 
     const double along = (at[j] - at[part]).dot(search_.directions_[direction]);
     for (const std::size_t side : {direction, Directions::opposite(direction)}) {
       const double sign = side == direction ? 1 : -1;
+      search_.work_ += static_cast<double>(search_.shape(ids_[part]).planes[side].size() *
+                                           search_.shape(ids_[j]).planes[side].size());
       for (const double a : search_.shape(ids_[part]).planes[side])
         for (const double b : search_.shape(ids_[j]).planes[side]) {
           const double length = sign * (b - a) + along;
@@ -287,7 +292,7 @@ void TranslationSearch::Arrangements::add(std::size_t parent, Set moved, std::si
 std::optional<std::vector<Translation>> TranslationSearch::Arrangements::expand(std::size_t node) {
   const std::vector<Vec3> at = nodes_[node].at;
   for (std::size_t d = 0; d < search_.directions_.size(); ++d) {
-    measure(at, d);
+    if (!measure(at, d)) return std::nullopt;
     if (const Set leaving = fewest_that_leave(); leaving != 0) return unwind(node, leaving, d);
     std::set<std::pair<Set, std::int64_t>> tried;
     for (std::size_t i = 0; i < count(); ++i)
@@ -344,6 +349,10 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
     if (auto translations = arrangements.expand(current)) {
       answer.translations = std::move(*translations);
       answer.end = End::found;
+      return answer;
+    }
+    if (work_ > most_work_) {  // it may be in the middle of the arrangement
+      answer.end = End::too_long;
       return answer;
     }
   }

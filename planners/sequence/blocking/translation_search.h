@@ -45,9 +45,9 @@ class TranslationSearch {
     std::size_t states = 0;                 ///< visited
     std::size_t waiting = 0;                ///< found and not visited
   };
-  /// Visits up to `most_states` states (else `limit`) and compares up to `most_work` pairs of edges (else `too_long`).
-  /// Measured lengths are cached, so a later search with more work resumes. `unsuited`: more than 64 parts, or a part
-  /// with more than `translation_edges` edges.
+  /// Visits up to `most_states` states (else `limit`) and compares up to `most_work` pairs of edges or faces (else
+  /// `too_long`). Measured lengths are cached, so a later search with more work resumes. `unsuited`: more than 64
+  /// parts, or a part with more than `translation_edges` edges.
   Answer search(const Places& places, std::size_t most_states, double most_work, const RunContext& context);
   /// Records that the verifier refused to let `moving`, at `offset` from `fixed`, pass `fixed` along `direction`.
   void forbid(PartId moving, PartId fixed, const Eigen::Vector3d& offset, const Eigen::Vector3d& direction);

@@ -115,12 +115,14 @@ TranslationSearch::Answer PartialTranslation::find(GroupState& group) {
     if (found.end == End::exhausted) prove(group);
     progress.off_grid = found.end == End::unsuited || (found.end == End::exhausted && group.proof == nullptr);
   }
+  bool hopeless = false;
   if (progress.off_grid && !group.is_pair()) {
     const std::size_t on_grid = found.states;
     found = translations_.search(places, most_states, work, state_.context());
+    hopeless = found.end == End::too_long && found.states <= 1;  // not one arrangement was compared
     found.states += on_grid;
   }
-  group.translations_limited = found.end == End::too_long && !snaps_.holds_all(group);
+  group.translations_limited = found.end == End::too_long && !hopeless && !snaps_.holds_all(group);
   group.translations_exhausted = found.end == End::exhausted;
   state_.count("translation_states", static_cast<double>(found.states));
   std::string& note = progress.note;

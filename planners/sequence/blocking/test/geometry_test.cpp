@@ -9,6 +9,7 @@
 
 #include "blocking/polyhedron.h"
 #include "blocking/rotation_axes.h"
+#include "blocking/translation_search.h"
 #include "blocking_graph/directions.h"
 #include "blocking_graph/graph.h"
 #include "dismantle/testing/fake_planning.h"
@@ -117,6 +118,20 @@ TEST(Polyhedron, SubdividedFacesAreOneFace) {
   EXPECT_EQ(two.edges().size(), 24u);
   EXPECT_NEAR(two.box().lo.x(), 0.01, 1e-12);
   EXPECT_NEAR(two.box().hi.x(), 2.99, 1e-12);
+}
+
+/// The work is counted within an arrangement, too: with detailed parts, one takes longer than all that was planned.
+TEST(TranslationSearch, EndsInTheMiddleOfAnArrangement) {
+  const Assembly assembly = fake::tube_with_blocks(3);
+  const PartialTranslationParameters params;
+  TranslationSearch search(assembly, kDefaultTolerance, params);
+  Places places;
+  for (const Part& part : assembly.parts) places[part.id] = Eigen::Vector3d::Zero();
+  const TranslationSearch::Answer cut = search.search(places, 100, 1.0, RunContext{});
+  EXPECT_EQ(cut.end, TranslationSearch::End::too_long);
+  EXPECT_EQ(cut.states, 1u);
+  const TranslationSearch::Answer whole = search.search(places, 100, 1e9, RunContext{});
+  EXPECT_EQ(whole.end, TranslationSearch::End::found) << "what was measured before is no hindrance";
 }
 
 TEST(Directions, ComeInOppositePairsAndHoldTheNormalsOfFlatFaces) {
