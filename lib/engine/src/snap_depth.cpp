@@ -1,6 +1,7 @@
 #include "snap_depth.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace {
 
 constexpr std::size_t kPartAxes = 6;    // of the faces of a part, largest area first
 constexpr double kSameAxis = 1 - 1e-6;  // cosine
-constexpr double kResolution = 0.25;    // of the depths that are measured, as a share of the tolerance
+constexpr std::uint64_t kPoses = 200;   // measured for one direction
 
 std::vector<geometry::FaceAxis> axes_of(const Assembly& assembly, PartId a, PartId b) {
   std::vector<geometry::FaceAxis> axes;
@@ -32,16 +33,19 @@ bool cuts_in_little(const Assembly& assembly, const Verifier& verifier, PartId a
   const double far = 1.1 * both.size().norm();  // after so far they are apart
   MotionDepthMeter meter(assembly, verifier);
   MotionDepthOptions options;
-  options.absolute = kResolution * verifier.options().max_penetration;
+  options.absolute = verifier.options().max_penetration;
   options.stop_above = most;
+  options.most_poses = kPoses;
+  options.known_invalid = true;
   bool little = false;
   for (const geometry::FaceAxis& axis : axes_of(assembly, a, b))
     for (const double sign : {1.0, -1.0}) {
       if (context.should_stop()) return false;
       const Path out{{Pose{}}, {Pose{sign * far * axis.axis, Pose{}.q}}};
+      if (verifier.passes(a, b, Pose{}, {out[0][0], out[1][0]})) return false;  // free
+      if (little) continue;
       const std::optional<MotionDepth> cut = meter.deepest({a}, {{b, Pose{}}}, out, options, context);
-      if (!cut) return false;  // free
-      little = little || cut->excess() <= most;
+      little = !cut || cut->excess() <= most;
     }
   return little;
 }
