@@ -123,6 +123,25 @@ TEST(Blocking, UpwardsTakesTheHighestFirstOfWhatPeopleBuildInSteps) {
   }
 }
 
+/// What is more than half of the whole is what the others are put to, however high it is.
+TEST(Blocking, UpwardsTakesTheSmallerOutOfTheLarger) {
+  Rng rng(7);
+  std::map<std::string, double> top;
+  auto parts = towers(rng, top);
+  const std::size_t small = parts.size() + 2;
+  for (int k = 0; k < 2 * static_cast<int>(small); ++k)  // a tower that is higher than all others
+    parts.push_back({"9." + std::to_string(k), {{{30, 0, 2.1 * k}, {34, 2, 2.1 * k + 2}}}});
+  Assembly assembly = fake::assembly_of(parts);
+  for (const Part& part : assembly.parts)
+    assembly.reference_order.push_back({1, {part.id}, part.name.starts_with("9.") ? "large" : "small"});
+  BlockingParameters params;
+  params.upwards = blocking::Upwards::on;
+  const RunResult r = take_apart(assembly, 1, {}, &helpless, {}, params);
+  ASSERT_EQ(r.outcome, Outcome::solved);
+  for (const std::string& name : r.plan.disassembly.front().separates[0])
+    EXPECT_FALSE(name.starts_with("9.")) << "the large group is taken out whole";
+}
+
 TEST(Blocking, UpwardsTakesOutWholeWhatTheFileBuildsByItself) {
   Rng rng(6);
   for (int trial = 0; trial < 5; ++trial) {

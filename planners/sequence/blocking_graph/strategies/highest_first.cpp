@@ -35,6 +35,7 @@ Result HighestFirst::apply(GroupState& group) {
   for (const Item& item : items) {
     if (state_.stop()) break;
     if (item.ids.size() == 1) ++single;
+    if (item.ids.size() > 1 && 2 * item.ids.size() > group.members.size()) continue;  // the others leave it
     if (!state_.may_leave(group, item.ids)) continue;
     if (item.ids.size() > 1 ? group_leaves(group, item.ids)
                             : leaves(group, item.ids, std::span(singles).subspan(single)))
