@@ -205,7 +205,7 @@ TEST(BestOrder, ManyStepsAreLeftAsTheyAreWhereTheEffortDoesNotSuffice) {
     StepCheckTraits traits() const noexcept override { return {}; }
     StepVerdict judge(const StepQuestion&, const RunContext&) const override {
       ++count_;
-      return {.cost = 1};
+      return {.cost = 1, .reason = "one for each step"};
     }
 
    private:
