@@ -1,6 +1,9 @@
 /// Which parts hold together without gravity.
 #pragma once
 
+#include <map>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "dismantle/assembly.h"
@@ -8,16 +11,33 @@
 
 namespace dismantle::statics {
 
-/// The part is a screw or a nut.
-bool is_fastener(const Part& part);
+/// Bonds of one assembly. A screw or nut holds what its thread is in, and nothing else: a bolt that is only put through
+/// a bore falls out when it is turned upside down.
+class Bonds {
+ public:
+  /// Keeps the assembly. Fasteners are those of Part::kind.
+  explicit Bonds(const Assembly& assembly);
+  /// None: the pair does not hold together without gravity. Otherwise it is pressed, clipped or screwed, and its
+  /// surfaces may lie so deep in each other, or so far apart: a thread and its hole are drawn with any diameters
+  /// between those of the crests and of the roots. `gap`: an overlap of that depth is still touching. Assembly units.
+  std::optional<double> depth(PartId a, PartId b, double gap) const;
+  /// Parts that are one body as soon as all of them are there: a screw, what it is driven into, and what it presses
+  /// between its head and the thread.
+  const std::vector<std::vector<PartId>>& clamped() const { return clamped_; }
 
-/// The pair holds together without gravity: pressed, clipped, screwed. `gap`: an overlap of that depth is still
-/// touching; assembly units.
-bool is_bonded(const Assembly& assembly, PartId a, PartId b, double gap);
+ private:
+  void add_threads();
 
-/// contacts_between() of a pair that is bonded or not. Bonded surfaces may lie deep in each other, by `overlap`; a thread
-/// and its hole are drawn with any diameters between those of the crests and of the roots.
-std::vector<Contact> pair_contacts(const PlacedShape& a, const PlacedShape& b, double touching, bool bonded,
-                                   double overlap);
+  const Assembly& assembly_;
+  std::vector<bool> screwed_;                            // screws of which it is known what they are driven into
+  std::map<std::pair<PartId, PartId>, double> threads_;  // the depth, by the smaller id and the larger one
+  std::vector<std::vector<PartId>> clamped_;
+};
+
+/// contacts_between() with regions that are narrower than the gap, as the facets of a thread are.
+std::vector<Contact> contacts_with_rims(const PlacedShape& a, const PlacedShape& b, double touching);
+/// Contacts of a pair that is bonded by depth(), or of one that is not.
+std::vector<Contact> pair_contacts(const PlacedShape& a, const PlacedShape& b, double touching,
+                                   const std::optional<double>& bond);
 
 }  // namespace dismantle::statics

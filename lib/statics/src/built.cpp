@@ -24,6 +24,11 @@ constexpr double kAlmostNoWeight = 1e-6;  // kg, of a part without a volume
 /// How a lies to b.
 Pose relative(const PlacedPart& a, const PlacedPart& b) { return b.pose.inverse() * a.pose; }
 
+/// What bonds depend on.
+std::pair<std::string, std::string> kind_of(const Part& part) {
+  return part.kind ? std::pair(part.kind->kind, part.kind->size) : std::pair<std::string, std::string>();
+}
+
 }  // namespace
 
 BuiltPiles::BuiltPiles(const Assembly& assembly, StabilityOptions options) : options_(std::move(options)) {
@@ -38,7 +43,7 @@ BuiltPiles::BuiltPiles(const Assembly& assembly, StabilityOptions options) : opt
   for (const Part& p : assembly.parts) {
     meshes_.push_back(p.mesh);
     volumes_.push_back(p.volume);
-    fasteners_.push_back(is_fastener(p));
+    kinds_.push_back(kind_of(p));
     units_.push_back(p.unit);
     boxes_.push_back(p.mesh->box());
     all.extend(boxes_.back());
@@ -52,6 +57,11 @@ BuiltPiles::BuiltPiles(const Assembly& assembly, StabilityOptions options) : opt
 void BuiltPiles::find_neighbours(const Assembly& assembly) {
   const auto count = static_cast<PartId>(meshes_.size());
   neighbours_.resize(count);
+  const Bonds bonds(assembly);
+  clamped_ = bonds.clamped();
+  clamped_of_.resize(count);
+  for (std::size_t k = 0; k < clamped_.size(); ++k)
+    for (const PartId part : clamped_[k]) clamped_of_[part].push_back(k);
   std::vector<double> sizes;
   std::vector<std::pair<double, PartId>> begins;
   std::map<PartId, std::vector<PartId>> of_unit;
@@ -81,11 +91,10 @@ void BuiltPiles::find_neighbours(const Assembly& assembly) {
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   for (const auto& [a, b] : pairs) {
     const double gap = kPlay * options_.touching * std::min(sizes[a], sizes[b]);
-    const bool bond = one_unit(a, b) || is_bonded(assembly, a, b, gap / (2 * kPlay));
-    const InitialOverlap* overlap = assembly.overlap_of(a, b);
-    const double depth = overlap == nullptr ? 0 : overlap->depth;
-    neighbours_[a].push_back({b, bond, depth});
-    neighbours_[b].push_back({a, bond, depth});
+    std::optional<double> bond = bonds.depth(a, b, gap / (2 * kPlay));
+    if (one_unit(a, b) && !bond) bond = 0;
+    neighbours_[a].push_back({b, bond});
+    neighbours_[b].push_back({a, bond});
   }
 }
 
@@ -94,8 +103,10 @@ BuiltPiles::~BuiltPiles() = default;
 bool BuiltPiles::is_of(const Assembly& assembly) const {
   return std::equal(meshes_.begin(), meshes_.end(), assembly.parts.begin(), assembly.parts.end(),
                     [](const auto& mesh, const Part& p) { return mesh == p.mesh; }) &&
-         std::equal(fasteners_.begin(), fasteners_.end(), assembly.parts.begin(), assembly.parts.end(),
-                    [](bool fastener, const Part& p) { return fastener == is_fastener(p); }) &&
+         std::equal(kinds_.begin(), kinds_.end(), assembly.parts.begin(), assembly.parts.end(),
+                    [](const auto& kind, const Part& p) {
+                      return p.kind ? kind.first == p.kind->kind && kind.second == p.kind->size : kind.first.empty();
+                    }) &&
          std::equal(units_.begin(), units_.end(), assembly.parts.begin(), assembly.parts.end(),
                     [](const auto& unit, const Part& p) { return unit == p.unit; });
 }
@@ -134,7 +145,25 @@ const BuiltPiles::Neighbour* BuiltPiles::neighbour(PartId a, PartId b) const {
 
 bool BuiltPiles::bonded(PartId a, PartId b) const {
   const Neighbour* near = neighbour(a, b);
-  return near != nullptr ? near->bonded : fasteners_[a] || fasteners_[b];
+  return near != nullptr && near->bond;
+}
+
+bool BuiltPiles::in_place(const PlacedPart& a, const PlacedPart& b) const {
+  const Pose to_b = relative(a, b);
+  return to_b.t.norm() <= kSamePose * size_ && to_b.q.vec().norm() <= kSamePose;
+}
+
+std::vector<const PlacedPart*> BuiltPiles::places(std::span<const PlacedPart> parts) const {
+  std::vector<const PlacedPart*> there(meshes_.size(), nullptr);
+  for (const PlacedPart& p : parts) there[p.part] = &p;
+  return there;
+}
+
+bool BuiltPiles::is_clamped(const std::vector<PartId>& group, const std::vector<const PlacedPart*>& there) const {
+  const PlacedPart* first = there[group.front()];
+  return first != nullptr && std::ranges::all_of(group, [&](PartId part) {
+           return there[part] != nullptr && in_place(*there[part], *first);
+         });
 }
 
 double BuiltPiles::touching(Gaps gaps) const { return (gaps == Gaps::play ? kPlay : 1) * options_.touching; }
@@ -143,21 +172,23 @@ const std::vector<Contact>& BuiltPiles::as_assembled(PartId a, PartId b, Gaps ga
   const std::tuple key(a, b, gaps);
   auto known = contacts_.find(key);
   if (known == contacts_.end()) {
+    // A wider gap finds more, but takes narrow regions for rims: it must not undo a bond.
     const Neighbour* near = neighbour(a, b);
-    known = contacts_
-                .emplace(key, pair_contacts({&shape(a), {}}, {&shape(b), {}}, touching(gaps), bonded(a, b),
-                                            near == nullptr ? 0 : near->overlap))
-                .first;
+    const std::optional<double> bond = near == nullptr ? std::nullopt : near->bond;
+    known =
+        contacts_
+            .emplace(key, pair_contacts({&shape(a), {}}, {&shape(b), {}}, touching(bond ? Gaps::tight : gaps), bond))
+            .first;
     for (Contact& c : known->second) c.friction = options_.friction;
   }
   return known->second;
 }
 
 std::vector<Contact> BuiltPiles::contacts(const PlacedPart& a, const PlacedPart& b, Gaps gaps) const {
-  const Pose to_b = relative(a, b);
-  if (to_b.t.norm() > kSamePose * size_ || to_b.q.vec().norm() > kSamePose) {
+  if (!in_place(a, b)) {
+    const std::optional<double> bond = bonded(a.part, b.part) ? std::optional(0.0) : std::nullopt;
     std::vector<Contact> result =
-        pair_contacts({&shape(a.part), a.pose}, {&shape(b.part), b.pose}, touching(gaps), bonded(a.part, b.part), 0);
+        pair_contacts({&shape(a.part), a.pose}, {&shape(b.part), b.pose}, touching(gaps), bond);
     for (Contact& c : result) c.friction = options_.friction;
     return result;
   }
@@ -212,6 +243,12 @@ BuiltPile BuiltPiles::pile(std::span<const PlacedPart> parts, const Vec3& up, Ga
       else
         found.push_back({i, j, std::move(own)});
     }
+  const std::vector<const PlacedPart*> there = places(parts);
+  for (const std::vector<PartId>& group : clamped_)
+    if (is_clamped(group, there))
+      for (const PartId part : group)
+        rigid.join(static_cast<std::uint32_t>(there[part] - parts.data()),
+                   static_cast<std::uint32_t>(there[group.front()] - parts.data()));
   BuiltPile built;
   built.pile.down = -up;
   std::map<std::uint32_t, std::uint32_t> number;
@@ -281,15 +318,13 @@ void BuiltPiles::press(BuiltPile& built, std::span<const PlacedPart> parts, std:
 std::size_t BuiltPiles::unsupported(std::span<const PlacedPart> parts, std::span<const PlacedPart> of,
                                     const Vec3& up) const {
   const std::lock_guard lock(mutex_);
-  std::vector<const PlacedPart*> there(meshes_.size(), nullptr);
+  const std::vector<const PlacedPart*> there = places(parts);
   double lowest = std::numeric_limits<double>::infinity();
-  bool in_place = true;  // as assembled, relative to each other
+  bool all_in_place = true;  // as assembled, relative to each other
   for (const PlacedPart& p : parts) {
-    there[p.part] = &p;
     lowest = std::min(lowest, height(p, up));
-    if (!in_place || p.pose == parts.front().pose) continue;
-    const Pose r = relative(p, parts.front());
-    in_place = r.t.norm() <= kSamePose * size_ && r.q.vec().norm() <= kSamePose;
+    if (!all_in_place || p.pose == parts.front().pose) continue;
+    all_in_place = in_place(p, parts.front());
   }
   std::vector<bool> seen(meshes_.size(), false);
   std::size_t count = 0;
@@ -297,21 +332,27 @@ std::size_t BuiltPiles::unsupported(std::span<const PlacedPart> parts, std::span
     if (seen[first.part]) continue;
     std::vector<PlacedPart> body{first}, near;
     seen[first.part] = true;
-    for (std::size_t i = 0; i < body.size(); ++i)
+    const auto add = [&](PartId part) {
+      if (!seen[part]) body.push_back(*there[part]);
+      seen[part] = true;
+    };
+    for (std::size_t i = 0; i < body.size(); ++i) {
+      for (const std::size_t k : clamped_of_[body[i].part])
+        if (is_clamped(clamped_[k], there)) std::ranges::for_each(clamped_[k], add);
       for (const Neighbour& n : neighbours_[body[i].part]) {
         const PlacedPart* other = there[n.part];
-        if (other == nullptr || seen[n.part] || !n.bonded) continue;
-        if (!one_unit(body[i].part, n.part) && (in_place ? as_assembled(body[i].part, n.part, Gaps::tight).empty()
-                                                         : contacts(body[i], *other, Gaps::tight).empty()))
+        if (other == nullptr || seen[n.part] || !n.bond) continue;
+        if (!one_unit(body[i].part, n.part) && (all_in_place ? as_assembled(body[i].part, n.part, Gaps::tight).empty()
+                                                             : contacts(body[i], *other, Gaps::tight).empty()))
           continue;
-        seen[n.part] = true;
-        body.push_back(*other);
+        add(n.part);
       }
+    }
     const auto by_part = [](const PlacedPart& x, const PlacedPart& y) { return x.part < y.part; };
     std::sort(body.begin(), body.end(), by_part);
     // What may touch it, in the order of `parts`.
     std::vector<const PlacedPart*> close;
-    if (in_place) {
+    if (all_in_place) {
       for (const PlacedPart& p : body)
         for (const Neighbour& n : neighbours_[p.part])
           if (there[n.part] != nullptr) close.push_back(there[n.part]);
@@ -326,7 +367,7 @@ std::size_t BuiltPiles::unsupported(std::span<const PlacedPart> parts, std::span
     for (const PlacedPart& p : body) own = std::min(own, height(p, up));
     double above = std::max(0.0, own - lowest);
     if (above > touching(Gaps::play) * size_) above = size_;  // far from the table
-    count += stands(std::move(body), std::move(near), up, own - above, in_place) ? 0 : 1;
+    count += stands(std::move(body), std::move(near), up, own - above, all_in_place) ? 0 : 1;
   }
   return count;
 }

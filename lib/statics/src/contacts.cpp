@@ -1,11 +1,13 @@
 #include "dismantle/statics/contacts.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "bonds.h"
 #include "polygon.h"
 #include "shape.h"
 
@@ -16,6 +18,7 @@ using Vec3 = Eigen::Vector3d;
 
 constexpr double kFacing = 0.94;       // cosine of 20 degrees: facets of two tessellations of one curved surface
 constexpr double kSamePlane = 0.9999;  // cosine of 0.8 degrees
+constexpr double kLean = 0.02;         // cosine: facets of a cylinder; a Morse taper leans by more
 constexpr std::size_t kCorners = 16, kSpread = 32;
 
 /// A region where two facets touch. Frame of the world.
@@ -211,15 +214,59 @@ void add_edges(const PlacedShape& a, const PlacedShape& b, double gap, double si
   }
 }
 
+/// Along a cylinder, if the planes are facets of one: the triangles between its two circles lean by up to their sagitta
+/// over its height, to either side. In a taper all lean to one side.
+std::optional<Vec3> cylinder_axis(const std::vector<Plane>& planes) {
+  constexpr std::size_t kFacets = 8, kLargest = 12;
+  if (planes.size() < kFacets) return std::nullopt;
+  const auto along = [&](const Vec3& axis, const auto& use) {
+    for (const Plane& p : planes)
+      if (std::abs(p.normal.dot(axis)) < kLean) use(p);
+  };
+  Vec3 best = Vec3::Zero();
+  double most = 0;
+  for (std::size_t i = 0; i < std::min(kLargest, planes.size()); ++i)  // the largest are first
+    for (std::size_t k = 0; k < i; ++k) {
+      const Vec3 across = planes[i].normal.cross(planes[k].normal);
+      if (across.norm() < 0.1) continue;
+      double area = 0;
+      along(across.normalized(), [&](const Plane& p) { area += p.area; });
+      if (area > most) best = across.normalized();
+      most = std::max(most, area);
+    }
+  if (most == 0) return std::nullopt;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  along(best, [&](const Plane& p) { spread += p.area * p.normal * p.normal.transpose(); });
+  const Vec3 axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+  std::size_t facets = 0;
+  double lean = 0, largest = 0;
+  along(axis, [&](const Plane& p) {
+    ++facets;
+    lean += p.area * p.normal.dot(axis) / most;
+    largest = std::max(largest, std::abs(p.normal.dot(axis)));
+  });
+  if (facets < kFacets || std::abs(lean) > 0.5 * largest) return std::nullopt;
+  return axis;
+}
+
+/// Facets of a cylinder as they are on it: what is in a bore does not stand in it as on a slope.
+void make_upright(std::vector<Plane>& planes) {
+  const std::optional<Vec3> axis = cylinder_axis(planes);
+  if (!axis) return;
+  for (Plane& p : planes)
+    if (const double lean = p.normal.dot(*axis); std::abs(lean) < kLean)
+      p.normal = (p.normal - lean * *axis).normalized();
+}
+
 /// The planes that count, and points spread over curved surfaces.
-std::vector<Contact> contacts_of(const std::vector<Plane>& planes, double gap, double size) {
+std::vector<Contact> contacts_of(const std::vector<Plane>& planes, double gap, double size, bool rims) {
   std::vector<Contact> contacts;
   double all = 0;
   for (const Plane& p : planes) all += p.area;
   std::vector<Spread> curved;
   for (const Plane& p : planes) {
     const Polygon hull = hull_in_plane(p.points, p.normal, kCorners);
-    if (p.area > 0) {
+    if (p.area > 0 && !rims) {
       double around = 0;
       for (std::size_t i = 0; i < hull.size(); ++i) around += (hull[(i + 1) % hull.size()] - hull[i]).norm();
       if (area_of(hull).norm() < 0.25 * gap * around) continue;  // thinner than the gap: a rim
@@ -233,22 +280,31 @@ std::vector<Contact> contacts_of(const std::vector<Plane>& planes, double gap, d
   return contacts;
 }
 
-}  // namespace
-
-std::vector<Contact> contacts_between(const PlacedShape& a, const PlacedShape& b, double touching) {
+std::vector<Contact> found_between(const PlacedShape& a, const PlacedShape& b, double touching, bool rims) {
   const double size = std::min(a.shape->radius(), b.shape->radius()), gap = touching * size;
   const Vec3 apart = a.pose * a.shape->center() - b.pose * b.shape->center();
   if (apart.norm() > a.shape->radius() + b.shape->radius() + gap) return {};
   // Iterate over the triangles of the part that has fewer.
   if (a.shape->mesh().triangles.size() > b.shape->mesh().triangles.size()) {
-    std::vector<Contact> contacts = contacts_between(b, a, touching);
+    std::vector<Contact> contacts = found_between(b, a, touching, rims);
     for (Contact& c : contacts) c.normal = -c.normal;
     return contacts;
   }
   std::vector<Plane> planes = planes_of(facets_between(a, b, gap), gap);
+  make_upright(planes);
   add_edges(a, b, gap, 1, planes);
   add_edges(b, a, gap, -1, planes);
-  return contacts_of(planes, gap, size);
+  return contacts_of(planes, gap, size, rims);
+}
+
+}  // namespace
+
+std::vector<Contact> contacts_between(const PlacedShape& a, const PlacedShape& b, double touching) {
+  return found_between(a, b, touching, false);
+}
+
+std::vector<Contact> contacts_with_rims(const PlacedShape& a, const PlacedShape& b, double touching) {
+  return found_between(a, b, touching, true);
 }
 
 Contact contact_with_table(const PlacedShape& part, const Vec3& up, double height, double touching) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "bonds.h"
 #include "dismantle/geometry/length_unit.h"
@@ -20,8 +21,12 @@ constexpr double kFrictions[] = {0.2, 0.3, 0.4, 0.5, 0.6};
 constexpr std::size_t kMostPushed = 60;  // parts: sixteen directions for each of them
 
 /// Contacts of all pairs whose boxes are near, in the input's units.
-void add_contacts(const Assembly& assembly, const std::vector<Shape>& shapes, const StabilityOptions& options,
-                  double touching, Pile& pile) {
+void add_contacts(const Assembly& assembly, const Bonds& bonds, const std::vector<Shape>& shapes,
+                  const StabilityOptions& options, double touching, Pile& pile) {
+  std::set<std::pair<PartId, PartId>> clamped;
+  for (const std::vector<PartId>& group : bonds.clamped())
+    for (const PartId a : group)
+      for (const PartId b : group) clamped.emplace(a, b);
   std::vector<Aabb> boxes;
   for (const Shape& s : shapes) {
     boxes.push_back(s.mesh().box());
@@ -30,14 +35,13 @@ void add_contacts(const Assembly& assembly, const std::vector<Shape>& shapes, co
   for (std::uint32_t a = 0; a < shapes.size(); ++a)
     for (std::uint32_t b = a + 1; b < shapes.size(); ++b) {
       if (!boxes[a].overlaps(boxes[b])) continue;
-      const bool bond = is_bonded(assembly, a, b, touching * std::min(shapes[a].radius(), shapes[b].radius()));
-      const InitialOverlap* overlap = assembly.overlap_of(a, b);
-      for (Contact& c :
-           pair_contacts({&shapes[a], {}}, {&shapes[b], {}}, touching, bond, overlap == nullptr ? 0 : overlap->depth)) {
+      std::optional<double> bond = bonds.depth(a, b, touching * std::min(shapes[a].radius(), shapes[b].radius()));
+      if (!bond && clamped.contains({a, b})) bond = 0;
+      for (Contact& c : pair_contacts({&shapes[a], {}}, {&shapes[b], {}}, touching, bond)) {
         c.a = a;
         c.b = b;
         c.friction = options.friction;
-        c.bonded = bond;
+        c.bonded = bond.has_value();
         for (Vec3& p : c.points) p = assembly.normalization.to_input(p);
         pile.contacts.push_back(std::move(c));
       }
@@ -99,7 +103,10 @@ AssemblyPile::AssemblyPile(const Assembly& assembly, StabilityOptions options)
   if (options_.density.empty())
     for (const Part& p : assembly.parts) options_.density.push_back(p.density.value_or(1));
   for (const Part& p : assembly.parts) shapes_.emplace_back(*p.mesh);
+  bonds_ = std::make_unique<const Bonds>(assembly);
 }
+
+AssemblyPile::~AssemblyPile() = default;
 
 bool AssemblyPile::unit_known() const { return !assembly_.unit.empty(); }
 
@@ -116,7 +123,7 @@ Pile AssemblyPile::pile(double factor) const {
     pile.bodies.push_back({kg * kGravity, assembly_.normalization.to_input(s.center()), s.radius() / scale,
                            static_cast<bool>(options_.fixed[i])});
   }
-  add_contacts(assembly_, shapes_, options_, touching, pile);
+  add_contacts(assembly_, *bonds_, shapes_, options_, touching, pile);
   pile.down = -options_.up;
   if (options_.table) {
     const std::uint32_t table = static_cast<std::uint32_t>(pile.bodies.size());

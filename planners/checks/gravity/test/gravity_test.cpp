@@ -10,9 +10,11 @@
 #include <stdexcept>
 
 #include "dismantle/constraints.h"
+#include "dismantle/fasteners/recognise.h"
 #include "dismantle/run_context.h"
 #include "dismantle/statics/step_proof.h"
 #include "dismantle/testing/shapes.h"
+#include "solids.h"
 
 namespace dismantle::checks {
 namespace {
@@ -200,6 +202,36 @@ TEST(Gravity, SameVerdictWhenTurnedAndScaled) {
   }
   EXPECT_GT(stands, 4u);
   EXPECT_GT(falls, 4u);
+}
+
+// A bolt from below through two plates that stand on a rim: put through them, it falls out; its nut holds it.
+TEST(Gravity, ABoltHoldsWithItsNutOnly) {
+  namespace solids = fasteners::test;
+  constexpr PartId bolt = 0, upper = 1, lower = 2, nut = 3;
+  Scene scene(
+      {shapes::moved(solids::screw({3, 12, 5.5, 3, {}, solids::polygon(6, 2.5), 1.5}), shapes::shift({0, 0, -12})),
+       shapes::joined(shapes::tube(1.7, 15, -4, 0, 64), shapes::tube(12, 15, 0, 10, 64)),
+       shapes::tube(1.7, 15, -8, -4, 64),
+       shapes::moved(solids::nut(solids::polygon(6, 5.5), 2.5, 2.4), shapes::shift({0, 0, -10.4}))});
+  scene.assembly.unit = "mm";
+  fasteners::recognise_kinds(scene.assembly, RunContext{}, {.names = false});
+  ASSERT_EQ(scene.assembly.parts[bolt].kind->kind, "screw");
+  ASSERT_EQ(scene.assembly.parts[nut].kind->kind, "nut");
+  const auto cost = [&](const std::vector<PartId>& parts) {
+    scene.present.clear();
+    for (const PartId p : parts) scene.present.push_back({p, Pose{}});
+    scene.moving = {scene.present.back()};
+    scene.present.pop_back();
+    StepQuestion question = scene.question(-Vector3d::UnitZ());
+    question.direction.setZero();
+    const double estimate = Gravity().estimate(question, RunContext{}).cost;
+    const double judged = Gravity().judge(question, RunContext{}).cost;
+    EXPECT_EQ(estimate, judged);
+    return judged;
+  };
+  EXPECT_EQ(cost({bolt, upper, lower}), 1);
+  EXPECT_EQ(cost({bolt, upper, lower, nut}), 0);
+  EXPECT_EQ(cost({bolt, upper, nut}), 1);  // a plate is missing: it is not tight
 }
 
 // A screw is drawn deep in the wall of its hole: it holds, as one body with the plate. Any other part has to be held.

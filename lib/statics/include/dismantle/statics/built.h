@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -26,7 +27,8 @@ enum class Gaps {
   play,   ///< ten times as much: what stands now settles by less than that
 };
 
-/// A pile of placed parts. Parts that are bonded, directly or through others, are one body.
+/// A pile of placed parts. Parts that are bonded, directly or through others, are one body, and so are those that a
+/// screw presses together, once all of them are there.
 struct BuiltPile {
   Pile pile;                           ///< weights in newton, lengths in assembly units; the last body is the table
   std::vector<std::uint32_t> body_of;  ///< by index into the parts that were given
@@ -40,7 +42,7 @@ class DISMANTLE_API BuiltPiles {
   BuiltPiles(const Assembly& assembly, StabilityOptions options);
   ~BuiltPiles();
 
-  /// True for the assembly it was made of, and for copies of it: the same meshes and fasteners.
+  /// True for the assembly it was made of, and for copies of it: the same meshes, of the same kinds.
   bool is_of(const Assembly& assembly) const;
 
   /// `parts` in ascending order of ids. The table has the unit normal `up` and touches the lowest point; `table` false:
@@ -65,8 +67,7 @@ class DISMANTLE_API BuiltPiles {
  private:
   struct Neighbour {
     PartId part;
-    bool bonded;
-    double overlap;  // depth, as assembled
+    std::optional<double> bond;  // Bonds::depth()
   };
   void find_neighbours(const Assembly& assembly);
   const Neighbour* neighbour(PartId a, PartId b) const;
@@ -78,6 +79,12 @@ class DISMANTLE_API BuiltPiles {
   const std::vector<Contact>& as_assembled(PartId a, PartId b, Gaps gaps) const;
   double touching(Gaps gaps) const;
   bool bonded(PartId a, PartId b) const;
+  /// By part: where it is; null: it is not there.
+  std::vector<const PlacedPart*> places(std::span<const PlacedPart> parts) const;
+  /// Whether a lies to b as it does when assembled.
+  bool in_place(const PlacedPart& a, const PlacedPart& b) const;
+  /// Whether a screw presses them together: all of them are there, as assembled.
+  bool is_clamped(const std::vector<PartId>& group, const std::vector<const PlacedPart*>& there) const;
   bool one_unit(PartId a, PartId b) const;
   bool stands(std::vector<PlacedPart> body, std::vector<PlacedPart> near, Eigen::Vector3d up, double table,
               bool in_place) const;
@@ -92,9 +99,11 @@ class DISMANTLE_API BuiltPiles {
   std::vector<std::shared_ptr<const Mesh>> meshes_;
   std::vector<Aabb> boxes_;
   std::vector<double> volumes_;
-  std::vector<bool> fasteners_;
-  std::vector<std::optional<PartId>> units_;        // Part::unit
-  std::vector<std::vector<Neighbour>> neighbours_;  // by part: those whose boxes are near, ascending
+  std::vector<std::pair<std::string, std::string>> kinds_;  // Part::kind: what it is, and its size
+  std::vector<std::vector<PartId>> clamped_;                // Bonds::clamped()
+  std::vector<std::vector<std::size_t>> clamped_of_;        // by part: indices of clamped_
+  std::vector<std::optional<PartId>> units_;                // Part::unit
+  std::vector<std::vector<Neighbour>> neighbours_;          // by part: those whose boxes are near, ascending
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<const Shape>> shapes_;
   mutable std::map<std::tuple<PartId, PartId, Gaps>, std::vector<Contact>> contacts_;  // as assembled

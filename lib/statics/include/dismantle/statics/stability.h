@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,8 @@
 #include "dismantle/statics/limits.h"
 
 namespace dismantle::statics {
+
+class Bonds;
 
 /// Standard gravity, m/s2.
 inline constexpr double kGravity = 9.80665;
@@ -35,6 +38,7 @@ struct StabilityOptions {
 class DISMANTLE_API AssemblyPile {
  public:
   AssemblyPile(const Assembly& assembly, StabilityOptions options);
+  ~AssemblyPile();
   /// The bodies are the parts in their order, and the table as the last one. Weights in newton, lengths in input units.
   /// `factor` multiplies the tolerance of contacts.
   Pile pile(double factor = 1) const;
@@ -46,6 +50,7 @@ class DISMANTLE_API AssemblyPile {
   const Assembly& assembly_;
   StabilityOptions options_;
   std::vector<Shape> shapes_;
+  std::unique_ptr<const Bonds> bonds_;
 };
 
 /// A part that moves, and where to.
