@@ -115,11 +115,11 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
 /// Leaves groups out of the layout that are in the way of an insertion. The automatic layout leaves room; poses given
 /// by the user may not.
 void Assembler::clear_insertions(Scenery& scenery, const RunContext& context) const {
-  Standing standing;
+  PartPlaces places;
   for (std::size_t i = 0; i < scenery.steps.size(); ++i) {
     if (context.should_stop()) return;  // no more transfers are searched for
     const std::size_t from = scenery.done.left_group(i);
-    std::vector<PlacedPart> others = standing.others(scenery, i);
+    std::vector<PlacedPart> others = places.others(scenery, i);
     // The parts that it passed on its way out need no check: the motion is the same.
     std::erase_if(others, [&](const PlacedPart& p) { return scenery.done.group(p.part, i + 1) == from; });
     const MotionCheck check = verifier_.check_motion(scenery.steps[i].parts, others, scenery.insertion(i), context);
@@ -182,11 +182,11 @@ class Assembler::Checker final : public PathChecker {
   std::vector<PartId> moving_;
 };
 
-Assembler::Found Assembler::transfer(const Scenery& scenery, std::size_t i, Standing& standing,
+Assembler::Found Assembler::transfer(const Scenery& scenery, std::size_t i, PartPlaces& places,
                                      TransferPlanner& planner, const RunContext& context) const {
   const DisassemblyStep& step = scenery.steps[i];
   const std::size_t from = scenery.done.left_group(i), made = scenery.done.group_of_step(i);
-  Scene scene{{}, standing.others(scenery, i)};
+  Scene scene{{}, places.others(scenery, i)};
   std::vector<Pose> goal;
   for (const PartId id : step.parts) {
     const Pose& out = scenery.done.pose(id, i + 1);
@@ -242,7 +242,7 @@ Assembler::Found Assembler::transfer(const Scenery& scenery, std::size_t i, Stan
 }
 
 /// Transfers of the steps [first, last) that need one, found by several threads with the present scenery.
-std::vector<Assembler::Found> Assembler::transfers(const Scenery& scenery, std::vector<Standing>& standing,
+std::vector<Assembler::Found> Assembler::transfers(const Scenery& scenery, std::vector<PartPlaces>& places,
                                                    std::size_t first, std::size_t last, const RunContext& context) {
   std::vector<Found> transfers_found(last - first);
   const auto one = [&](std::size_t k, std::size_t thread) {
@@ -251,14 +251,14 @@ std::vector<Assembler::Found> Assembler::transfers(const Scenery& scenery, std::
     if (context.should_stop())
       transfers_found[k].looked_for = false;
     else
-      transfers_found[k] = transfer(scenery, i, standing[thread], *planners_[thread], context);
+      transfers_found[k] = transfer(scenery, i, places[thread], *planners_[thread], context);
   };
   const std::size_t threads = std::min<std::size_t>(std::max(1U, context.threads), transfers_found.size());
   while (planners_.size() < threads) {
     planners_.push_back(setup_.transfer_planner());
     if (!planners_.back()) throw PluginError("transfer_planner", "nothing was made");
   }
-  standing.resize(std::max(standing.size(), threads));
+  places.resize(std::max(places.size(), threads));
   std::atomic<std::size_t> next{0};
   parallel_for(
       threads, context,
@@ -314,10 +314,10 @@ AssemblyPlan Assembler::put_together(const Disassembly& done, const std::vector<
   // out has another place from then on, so transfers found for later steps are discarded. A wave holds several steps
   // per thread, so that one long search does not leave other threads idle.
   const std::size_t wave = context.threads > 1 ? 16 * context.threads : 1;
-  std::vector<Standing> standing;  // by thread
+  std::vector<PartPlaces> places;  // by thread
   for (std::size_t first = 0; first < steps.size();) {
     std::vector<Found> transfers_found =
-        transfers(scenery, standing, first, std::min(first + wave, steps.size()), context);
+        transfers(scenery, places, first, std::min(first + wave, steps.size()), context);
     bool as_supposed = true;
     for (std::size_t k = 0; k < transfers_found.size() && as_supposed; ++k) {
       const std::size_t i = first++, made = done.group_of_step(i);

@@ -35,14 +35,14 @@ class Assembler {
 
  private:
   struct Scenery;
-  class Standing;
+  class PartPlaces;
   struct Found;
   class Checker;
   void place_groups(Scenery& scenery, const RunContext& context) const;
   void clear_insertions(Scenery& scenery, const RunContext& context) const;
-  std::vector<Found> transfers(const Scenery& scenery, std::vector<Standing>& standing, std::size_t first,
+  std::vector<Found> transfers(const Scenery& scenery, std::vector<PartPlaces>& places, std::size_t first,
                                std::size_t last, const RunContext& context);
-  Found transfer(const Scenery& scenery, std::size_t step, Standing& standing, TransferPlanner& planner,
+  Found transfer(const Scenery& scenery, std::size_t step, PartPlaces& places, TransferPlanner& planner,
                  const RunContext& context) const;
   PlanStep to_step(const Scenery& scenery, std::size_t step, const Found& found, const PlanStep& there) const;
   Aabb box_of(PartId part, const Pose& pose) const;

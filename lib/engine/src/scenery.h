@@ -43,7 +43,7 @@ struct Assembler::Scenery {
 };
 
 /// Where the parts are at the time of a transfer. Those of the step before are kept: few of them move in a step.
-class Assembler::Standing {
+class Assembler::PartPlaces {
  public:
   /// All parts but those of step `i`. Groups that are not in the layout are left out, except the one that the step adds
   /// to.
@@ -82,7 +82,7 @@ class Assembler::Standing {
     s.at = {id, product(scenery.place[s.group], scenery.done.pose(id, after))};
   }
 
-  std::vector<Stand> stands_;  // by part, after so many steps
+  std::vector<Stand> stands_;  // by part, after `after_` steps
   std::size_t after_ = 0, changes_ = 0;
 };
 

@@ -185,7 +185,7 @@ class Screw {
     if (last == nullptr || !may_be_thread(*last)) return;
     for (const Stretch& s : stretches_)  // another bore without play is as likely to be the thread
       if (s.part != last->part && reached(s) && kind(s.part) != Kind::washer && s.bore < kPlay * radius()) {
-        out_.perhaps = last->part;
+        out_.possible_thread = last->part;
         return;
       }
     thread_ = *last;

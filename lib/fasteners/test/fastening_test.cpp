@@ -156,7 +156,7 @@ TEST(Fastening, OfBoresWithoutPlayTheLastMayBeTheThread) {
   const auto found = found_in(stack.assembly());
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(found[0].into.empty());
-  EXPECT_EQ(found[0].perhaps, lower);
+  EXPECT_EQ(found[0].possible_thread, lower);
 }
 
 TEST(Fastening, ANutIsOnTheRodThatFillsItsHole) {

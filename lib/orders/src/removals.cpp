@@ -8,9 +8,9 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/executor.h"
+#include "dismantle/geometry/boxes_along.h"
 #include "dismantle/part_set.h"
 #include "own_axes.h"
-#include "sweeps_over.h"
 
 namespace dismantle {
 
@@ -204,7 +204,7 @@ bool Removals::obstructs(const Motion& motion, std::size_t unit) const {
 bool Removals::meets(const Motion& motion, std::size_t column, PartId other) const {
   const PartId part = motion.parts[column];
   if (motion.straight &&
-      !sweeps_over(assembly_.parts[part].mesh->box(), assembly_.parts[other].mesh->box(), motion.out))
+      !geometry::meets_along(assembly_.parts[part].mesh->box(), assembly_.parts[other].mesh->box(), motion.out))
     return false;
   std::vector<Pose> path;
   for (const std::vector<Pose>& poses : motion.path) path.push_back(poses[column]);

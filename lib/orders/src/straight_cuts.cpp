@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "dismantle/geometry/boxes_along.h"
 #include "dismantle/geometry/ray_depth.h"
-#include "sweeps_over.h"
 
 namespace dismantle {
 
@@ -44,7 +44,7 @@ double StraightCuts::reach(PartId moving, PartId fixed, const Vector3d& out) con
 
 bool StraightCuts::in_reach(PartId moving, PartId fixed, const Vector3d& out) const {
   return reach(moving, fixed, out) > 0 &&
-         sweeps_over(assembly_.parts[moving].mesh->box(), assembly_.parts[fixed].mesh->box(), out);
+         geometry::meets_along(assembly_.parts[moving].mesh->box(), assembly_.parts[fixed].mesh->box(), out);
 }
 
 /// Rays from vertices of each of the two through the other. Walls have no depth that a ray could find.

@@ -58,8 +58,8 @@ void Bonds::add_threads() {
   const auto fastenings = fasteners::fastenings_of(assembly_, shapes, surface, context);
   for (const fasteners::Fastening& f : fastenings) {
     for (const PartId part : f.into) add(f.screw, part, shapes[f.screw].shank_radius);
-    if (f.perhaps) add(f.screw, *f.perhaps, shapes[f.screw].shank_radius);
-    screwed_[f.screw] = f.perhaps || !f.into.empty();
+    if (f.possible_thread) add(f.screw, *f.possible_thread, shapes[f.screw].shank_radius);
+    screwed_[f.screw] = f.possible_thread || !f.into.empty();
     if (f.clamps.empty() || f.into.empty()) continue;
     std::vector<PartId> all{f.screw, f.into.front()};
     all.insert(all.end(), f.clamps.begin(), f.clamps.end());

@@ -1,4 +1,4 @@
-// Which parts of what is built would fall if the others were held: the quick question of orders.
+// How many bodies do not stand even if all others are held: the estimate that searches for orders ask for.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>

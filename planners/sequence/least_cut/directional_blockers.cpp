@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "dismantle/geometry/boxes_along.h"
 #include "dismantle/geometry/swept_boxes.h"
 #include "dismantle/part_set.h"
 
@@ -15,21 +16,6 @@ std::array<int, 3> rounded_direction(const Eigen::Vector3d& d) {
   const Eigen::Vector3d steps = 1e6 * d;  // directions of the same face differ by rounding only
   return {static_cast<int>(std::lround(steps.x())), static_cast<int>(std::lround(steps.y())),
           static_cast<int>(std::lround(steps.z()))};
-}
-
-bool may_meet(const Aabb& moving, const Aabb& fixed, const Eigen::Vector3d& along) {
-  double first = 0, last = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 3; ++k) {
-    const double near = fixed.lo[k] - moving.hi[k], far = fixed.hi[k] - moving.lo[k];
-    if (along[k] == 0) {
-      if (near > 0 || far < 0) return false;
-      continue;
-    }
-    const double a = near / along[k], b = far / along[k];
-    first = std::max(first, std::min(a, b));
-    last = std::min(last, std::max(a, b));
-  }
-  return first <= last;
 }
 
 DirectionalBlockers::DirectionalBlockers(std::vector<Aabb> boxes, Reach reach, Thickness thickness)
@@ -73,7 +59,8 @@ const std::vector<DirectionalBlockers::Blocker>& DirectionalBlockers::blockers(R
   Entry& entry = measured(row, part);
   if (entry.listed) return entry.blockers;
   for (const PlacedPart& q : *group_) {
-    if (q.part == part.part || !may_meet(placed_box_[part.part], placed_box_[q.part], row.direction)) continue;
+    if (q.part == part.part || !geometry::meets_along(placed_box_[part.part], placed_box_[q.part], row.direction))
+      continue;
     if (const double t = thickness_(part, q, row.direction); t > 0) entry.blockers.push_back({q.part, t});
   }
   entry.listed = true;

@@ -15,9 +15,6 @@ namespace dismantle::least_cut {
 /// Equal for unit vectors that differ only by rounding.
 std::array<int, 3> rounded_direction(const Eigen::Vector3d& direction);
 
-/// Can box `moving` meet box `fixed` at any distance along `along`?
-bool may_meet(const Aabb& moving, const Aabb& fixed, const Eigen::Vector3d& along);
-
 /// Caches, for each part and direction, the few parts that block it (one direction of a directional blocking graph;
 /// Wilson 1992), and how much of each is in the way. When a part leaves the group, the lists of the others stay valid,
 /// so choosing the next of n parts costs O(n) once the lists are made. Lists of moved parts are made again.

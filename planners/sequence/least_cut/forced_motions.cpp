@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "dismantle/geometry/boxes_along.h"
 #include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/part_data.h"
 #include "dismantle/geometry/ray.h"
@@ -150,8 +151,9 @@ const ForcedMotions::Known& ForcedMotions::blocking(const PlacedPart& moving, co
                                                     const Vec3& along) {
   static const Known kNotBlocking;
   const Aabb a = geometry::box_under(boxes_[moving.part], moving.pose);
-  return may_meet(a, geometry::box_under(boxes_[fixed.part], fixed.pose), along) ? known(moving, fixed, along)
-                                                                                 : kNotBlocking;
+  return geometry::meets_along(a, geometry::box_under(boxes_[fixed.part], fixed.pose), along)
+             ? known(moving, fixed, along)
+             : kNotBlocking;
 }
 
 const std::vector<geometry::Solid>& ForcedMotions::solids(PartId part) const {

@@ -56,26 +56,34 @@ Assembly any_boxes(Rng& rng) {
   return fake::assembly_of(parts);
 }
 
+/// The disassembly of random boxes by an oracle that accepts everything.
+struct Boxes {
+  explicit Boxes(Rng& rng) : assembly(any_boxes(rng)) {}
+  const Assembly assembly;
+  AcceptingOracle oracle{};
+  Observer observer{};
+  const Constraints constraints{};
+  RunContext context{};
+  const Objective objective{};
+  const SequenceQuery query{assembly, whole_assembly(assembly), constraints, objective};
+  DisassemblyState state{query, {}, PartOrder::as_given, observer, context};
+  const PairSweep sweep{assembly, oracle};
+};
+
 /// Parts leave alone or as groups, or are translated within their group. Every group of the run is asked about.
 TEST(StraightMotion, DirectionsAreThoseOfOneThatKnowsNothing) {
   Rng rng(8);
   for (int trial = 0; trial < 20; ++trial) {
-    const Assembly assembly = any_boxes(rng);
-    AcceptingOracle oracle;
-    Observer observer;
-    const Constraints constraints;
-    RunContext context;
-    const Objective objective;
-    const SequenceQuery query{assembly, whole_assembly(assembly), constraints, objective};
-    DisassemblyState state(query, {}, PartOrder::as_given, observer, context);
-    const PairSweep sweep(assembly, oracle);
-    StraightMotion kept(state, oracle, sweep, directions_of(assembly));
+    Boxes boxes(rng);
+    const Assembly& assembly = boxes.assembly;
+    DisassemblyState& state = boxes.state;
+    StraightMotion kept(state, boxes.oracle, boxes.sweep, directions_of(assembly));
     state.add_listener(kept);
     while (!state.waiting().empty()) {
       GroupState group = state.waiting().front();
       state.waiting().pop_front();
       while (group.members.size() > 1) {
-        StraightMotion fresh(state, oracle, sweep, directions_of(assembly));
+        StraightMotion fresh(state, boxes.oracle, boxes.sweep, directions_of(assembly));
         for (std::uint64_t asked = rng.below(2 * group.members.size()); asked > 0; --asked) {
           const SubassemblyId id = group.members[rng.below(group.members.size())];
           ASSERT_EQ(kept.directions_of(group, id), fresh.directions_of(group, id)) << trial;
@@ -94,7 +102,7 @@ TEST(StraightMotion, DirectionsAreThoseOfOneThatKnowsNothing) {
           path[0].push_back(p.pose);
           path[1].push_back({p.pose.t + shift, p.pose.q});
         }
-        state.commit(group, ids, attempt, oracle.propose(attempt, path, context),
+        state.commit(group, ids, attempt, boxes.oracle.propose(attempt, path, boxes.context),
                      stays ? GroupChange::Kind::translated : GroupChange::Kind::removed);
       }
     }
@@ -106,17 +114,11 @@ TEST(UnitExtents, LeaveOutOnlyWhatIsFar) {
   Rng rng(9);
   std::size_t far = 0, left_in = 0, near = 0;
   for (int trial = 0; trial < 20; ++trial) {
-    const Assembly assembly = any_boxes(rng);
-    AcceptingOracle oracle;
-    Observer observer;
-    const Constraints constraints;
-    RunContext context;
-    const Objective objective;
-    const SequenceQuery query{assembly, whole_assembly(assembly), constraints, objective};
-    DisassemblyState state(query, {}, PartOrder::as_given, observer, context);
-    const PairSweep sweep(assembly, oracle);
+    Boxes boxes(rng);
+    const Assembly& assembly = boxes.assembly;
+    DisassemblyState& state = boxes.state;
     const Directions directions = directions_of(assembly);
-    const Relations relations(sweep, directions, state.orientations(), nullptr);
+    const Relations relations(boxes.sweep, directions, state.orientations(), nullptr);
     UnitExtents extents(state, relations, directions.all.size());
     const Subassemblies all = state.waiting().front().members;
     for (int move = 0; move < 6; ++move) {

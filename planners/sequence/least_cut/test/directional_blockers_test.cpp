@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 
+#include "dismantle/geometry/boxes_along.h"
 #include "dismantle/geometry/swept_boxes.h"
 #include "dismantle/testing/run_rig.h"
 #include "dismantle/testing/shapes.h"
@@ -57,7 +58,7 @@ TEST(DirectionalBlockers, WhatMayNotMeetNeverDoes) {
       ask.boxes.push_back({lo, lo + Vec3(rng.uniform(0.1, 2), rng.uniform(0.1, 2), rng.uniform(0.1, 2))});
     }
     const Vec3 d = random_direction(rng);
-    if (may_meet(ask.boxes[0], ask.boxes[1], d)) continue;
+    if (geometry::meets_along(ask.boxes[0], ask.boxes[1], d)) continue;
     ++apart;
     EXPECT_EQ(ask.thickness({0, Pose{}}, {1, Pose{}}, d), 0) << "trial " << trial;
   }

@@ -37,8 +37,8 @@ struct Fastening {
   PartId screw = 0;
   std::vector<PartId> clamps{};  ///< from the head to the thread, washers too; empty: nothing, or not known
   std::vector<PartId> into{};    ///< what has the thread, nearest to the head first; empty: not known
-  /// `into` is empty: the last part whose bore has no play. It may be its thread; another bore may be as well.
-  std::optional<PartId> perhaps{};
+  /// If `into` is empty: the last part whose bore has no play. Another bore may be the thread as well.
+  std::optional<PartId> possible_thread{};
   bool nut = false;            ///< `into` begins with nuts, inserts or stand-offs, not with a part that is threaded
   std::vector<PartId> only{};  ///< of `clamps`, those that no other screw clamps or is driven into
   std::vector<FasteningFault> faults{};

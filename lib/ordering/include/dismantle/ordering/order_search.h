@@ -114,7 +114,7 @@ TargetOrder order_to(Problem& problem, const UnitSet& start, std::size_t target,
 
 /// Beam search, as wide as the effort allows.
 Order beam(Problem& problem, const Task& task, Effort& effort);
-/// With less effort, a beam for so many units that leave one after the other may end before it has an order.
+/// Judged steps that a beam needs to reach an order of `units` units that leave one after the other.
 std::uint64_t least_effort(std::size_t units);
 
 /// Looks for cheaper orders of some steps in a row, until none is found or the effort is spent.

@@ -1,4 +1,4 @@
-/// Boxes along a straight motion.
+/// Boxes that a straight motion may bring together.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,10 +7,10 @@
 
 #include "dismantle/aabb.h"
 
-namespace dismantle {
+namespace dismantle::geometry {
 
-/// Along `d`, does the box touch the other before it is past it?
-inline bool sweeps_over(const Aabb& box, const Aabb& other, const Eigen::Vector3d& d) {
+/// Does the box touch `other` at some time when it moves along `d`, however far?
+inline bool meets_along(const Aabb& box, const Aabb& other, const Eigen::Vector3d& d) {
   double from = 0, to = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
     const double low = other.lo[k] - box.hi[k], high = other.hi[k] - box.lo[k];
@@ -25,4 +25,4 @@ inline bool sweeps_over(const Aabb& box, const Aabb& other, const Eigen::Vector3
   return from <= to;
 }
 
-}  // namespace dismantle
+}  // namespace dismantle::geometry
