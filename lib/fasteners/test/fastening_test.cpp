@@ -167,6 +167,8 @@ TEST(Fastening, ANutIsOnTheRodThatFillsItsHole) {
         stack.add("rod", turned_solid({{0, circle(0)}, {0, circle(3)}, {40, circle(3)}, {40, circle(0)}}));
     const PartId nut = stack.add_nut("nut", 10, 5.5, hole);
     stack.add_nut("on nothing", 60, 5.5, hole);
+    stack.add_nut("around a wire", 80, 5.5, hole);
+    stack.add("wire", turned_solid({{70, circle(0)}, {70, circle(1)}, {90, circle(1)}, {90, circle(0)}}));
     stack.add_plate("wide", 3.4, -20, -17);
     const Assembly assembly = stack.assembly(shapes::random_pose(rng, 30));
     std::vector<std::unique_ptr<TriangleBvh>> surfaces;

@@ -232,6 +232,16 @@ TEST(Gravity, ABoltHoldsWithItsNutOnly) {
   EXPECT_EQ(cost({bolt, upper, lower}), 1);
   EXPECT_EQ(cost({bolt, upper, lower, nut}), 0);
   EXPECT_EQ(cost({bolt, upper, nut}), 1);  // a plate is missing: it is not tight
+
+  // Bores that are drawn at the diameter of the bolt overlap it all around. They hold it no more.
+  for (const PartId plate : {upper, lower}) {
+    OverlapPlace place;
+    place.contact = ContactClass::uniform_interference;
+    place.axis = Vector3d::UnitZ();
+    scene.assembly.overlaps.push_back({bolt, plate, 0.01, place, std::nullopt});
+  }
+  EXPECT_EQ(cost({bolt, upper, lower}), 1);
+  EXPECT_EQ(cost({bolt, upper, lower, nut}), 0);
 }
 
 // A screw is drawn deep in the wall of its hole: it holds, as one body with the plate. Any other part has to be held.
