@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace dismantle::geometry {
@@ -124,16 +125,21 @@ bool DirectedCheck::descend(double s0, double s1) {
   return process(i, std::move(list), true);
 }
 
-/// Checks all turns of a winding together by the vertex rule, and the patches that remain like any other motion. The
-/// first pass uses cells five times as wide, since most of a part is not near.
+/// Checks all turns of a winding together by the vertex rule, and the patches that remain like any other motion. Wide
+/// cells come first, each time five times as wide as the next: most of a part is not near, and threads have play.
 bool DirectedCheck::wind(const Winding& winding) {
   List list;
   if (!a_.bvh.nodes().empty())
     collect(interval(static_cast<double>(winding.begin), static_cast<double>(winding.end)), 0, list);
-  if (!clear_unrolled(unrolled(winding, list, 0.5 * limits_.cells_from()), winding, winding.begin, winding.end, list))
-    return false;
-  if (list.empty()) return true;
-  const UnrolledMesh finely = unrolled(winding, list, 0.1 * limits_.cells_from());  // before the list is moved
+  const double fine = 0.1 * limits_.cells_from(), lead = 2 * std::numbers::pi * std::abs(winding.pitch);
+  double cell = fine;
+  while (5 * cell < lead / 16) cell *= 5;
+  for (; cell > 2 * fine; cell /= 5) {
+    const UnrolledMesh widely = unrolled(winding, list, cell);
+    if (!clear_unrolled(widely, winding, winding.begin, winding.end, list)) return false;
+    if (list.empty()) return true;
+  }
+  const UnrolledMesh finely = unrolled(winding, list, fine);  // before the list is moved
   return wind(finely, winding, winding.begin, winding.end, std::move(list));
 }
 

@@ -202,12 +202,14 @@ UnrolledMesh::UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, const
   for (cell_ = cell;; cell_ *= 1.25) {
     rows_ = static_cast<long>(std::ceil((ring_.r_hi - ring_.r_lo) / cell_)) + 1;
     columns_ = static_cast<long>(std::ceil(lead_ / cell_));
-    if (rows_ * columns_ <= 1'500'000) break;  // cells of 16 bytes: 24 MB
+    if (rows_ * columns_ <= 1'500'000) break;  // bounds the work
   }
-  taken_.assign(static_cast<std::size_t>(rows_ * columns_), Bits{});
+  taken_ = RowRuns(static_cast<std::size_t>(rows_));
+  empty_ = false;
   by_bent_.assign(static_cast<std::size_t>(rows_), Bits{});
   in_row_ = by_bent_;
   for (const std::uint32_t t : there) enter(bvh.corners(t), kDepth);
+  taken_.finish();
 }
 
 /// Extends the range of phi of the mesh by that of a triangle.
@@ -250,10 +252,10 @@ std::pair<long, long> UnrolledMesh::rows_of(double lo, double hi) const {
           std::min(rows_ - 1, static_cast<long>(std::floor((hi - ring_.r_lo) / cell_)))};
 }
 
-/// Calls f(cell, turns) for all cells that the triangle may overlap; `turns` is the number of full turns by which it is
-/// wound back. Returns false as soon as f does. Skips rows with false in_row(row).
-template <class Row, class Cell>
-bool UnrolledMesh::cells_of(const Unrolled& u, const Row& in_row, const Cell& f) const {
+/// Calls f(row, first, last, turns) for all runs of cells that the triangle may overlap; `turns` is the number of full
+/// turns by which it is wound back. Returns false as soon as f does. Skips rows with false in_row(row).
+template <class Row, class Run>
+bool UnrolledMesh::runs_of(const Unrolled& u, const Row& in_row, const Run& f) const {
   const auto [first, last] = std::minmax({u.p[0].x(), u.p[1].x(), u.p[2].x()});
   const auto [row0, row1] = rows_of(first - u.below, last + u.above);
   const double column = lead_ / static_cast<double>(columns_);
@@ -276,9 +278,12 @@ bool UnrolledMesh::cells_of(const Unrolled& u, const Row& in_row, const Cell& f)
     if (lo > hi) continue;
     const long c0 = static_cast<long>(std::floor((lo - u.beside - winding_.rounding) / column));
     const long c1 = static_cast<long>(std::floor((hi + u.beside + winding_.rounding) / column));
-    for (long c = c0; c <= c1; ++c) {
+    for (long c = c0; c <= c1;) {
       const long turns = c >= 0 ? c / columns_ : -((-c + columns_ - 1) / columns_);
-      if (!f(static_cast<std::size_t>(row * columns_ + (c - turns * columns_)), turns)) return false;
+      const long end = std::min(c1, (turns + 1) * columns_ - 1);
+      const auto in_turn = [&](long at) { return static_cast<std::int32_t>(at - turns * columns_); };
+      if (!f(static_cast<std::size_t>(row), in_turn(c), in_turn(end), turns)) return false;
+      c = end + 1;
     }
   }
   return true;
@@ -303,16 +308,16 @@ void UnrolledMesh::enter(const Corners& t, int depth) {
   }
   long known = std::numeric_limits<long>::max();
   Bits b{};
-  cells_of(
+  runs_of(
       u, [](long) { return true; },
-      [&](std::size_t cell, long turns) {
+      [&](std::size_t row, std::int32_t first, std::int32_t last, long turns) {
         if (turns != known) {
           known = turns;
           const double by = 2 * pi * static_cast<double>(turns);
           b = bits(u.phi_lo + by, u.phi_hi + by);
         }
-        add(taken_[cell], b);
-        add(in_row_[cell / static_cast<std::size_t>(columns_)], b);
+        taken_.add(row, first, last, b);
+        add(in_row_[row], b);
         return true;
       });
 }
@@ -337,22 +342,25 @@ bool UnrolledMesh::free(const Corners& t, double from, double to, int depth, std
   if (u.bent) return false;
   long known = std::numeric_limits<long>::max();
   Bits b{};
-  return cells_of(
+  return runs_of(
       u, [&](long row) { return !none(in_row_[static_cast<std::size_t>(row)], any); },
-      [&](std::size_t cell, long turns) {
+      [&](std::size_t row, std::int32_t first, std::int32_t last, long turns) {
         ++cells;
         if (turns != known) {
           known = turns;
           const double by = 2 * pi * static_cast<double>(turns);
           b = bits(u.phi_lo + by + from, u.phi_hi + by + to);
         }
-        return none(taken_[cell], b) && none(by_bent_[cell / static_cast<std::size_t>(columns_)], b);
+        return none(by_bent_[row], b) && taken_.each(row, first, last, [&](const Bits& taken) {
+          ++cells;
+          return none(taken, b);
+        });
       });
 }
 
 bool UnrolledMesh::clear_of(const Corners& moved, std::size_t from, std::size_t to, std::uint64_t& cells) const {
   if (blind_) return false;
-  if (taken_.empty()) return true;
+  if (empty_) return true;
   return free(moved, winding_.turned_at(from), winding_.turned_at(to), kDepth, cells);
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "dismantle/geometry/relative_motion.h"
+#include "dismantle/geometry/row_runs.h"
 #include "dismantle/geometry/sweep.h"
 #include "dismantle/geometry/triangle_bvh.h"
 
@@ -63,16 +64,16 @@ class UnrolledMesh {
   UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, const Ring& asked, double cell);
 
   /// True proves that the triangle meets no triangle of the mesh from instant `from` to instant `to`. `moved`: its
-  /// corners at the first instant of the winding, frame of B. Adds the number of cells visited to `cells`.
+  /// corners at the first instant of the winding, frame of B. Adds the work, in cells looked at, to `cells`.
   bool clear_of(const Corners& moved, std::size_t from, std::size_t to, std::uint64_t& cells) const;
 
  private:
-  using Bits = std::array<std::uint64_t, 2>;
+  using Bits = RowRuns::Bits;
   void extend(const Corners& t, int depth);
   void enter(const Corners& t, int depth);
   bool free(const Corners& t, double from, double to, int depth, std::uint64_t& cells) const;
-  template <class Row, class Cell>
-  bool cells_of(const Unrolled& u, const Row& row, const Cell& cell) const;
+  template <class Row, class Run>
+  bool runs_of(const Unrolled& u, const Row& row, const Run& run) const;
   Bits bits(double lo, double hi) const;
   Bits bits_of_bent(const Unrolled& u, double from, double to) const;
   std::pair<long, long> rows_of(double lo, double hi) const;
@@ -87,7 +88,8 @@ class UnrolledMesh {
   double cell_ = 0;  // along r
   long rows_ = 0, columns_ = 0;
   double phi_lo_, phi_hi_;     // of the whole mesh; phi continues over turns, as psi is reduced to [0, lead)
-  std::vector<Bits> taken_;    // by row and column
+  RowRuns taken_;              // by row and column
+  bool empty_ = true;          // no triangle is near
   std::vector<Bits> by_bent_;  // by row: triangles near the axis, for all columns
   std::vector<Bits> in_row_;   // by row: union of all columns
 };
