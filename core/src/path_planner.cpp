@@ -108,6 +108,7 @@ class FunctionSearch final : public PathSearch {
   SearchStatus run(const Budget& portion) override {
     if (over_) return status_of(result_.outcome());
     PathQuery query = query_;
+    query.portion = portion.max_steps > 0 || portion.timeout > 0;
     query.budget.max_steps = tighter(query.budget.max_steps, portion.max_steps);
     query.budget.timeout = tighter(query.budget.timeout, portion.timeout);
     const Deadline whole = context_.deadline.earlier(deadline_), end = deadline_of(portion);
@@ -118,7 +119,7 @@ class FunctionSearch final : public PathSearch {
     const bool stopped = result_.outcome() == Outcome::timeout || (cancelled && !context.cancel.cancelled());
     const bool by_portion = query.budget.max_steps != query_.budget.max_steps || end.passed();
     const bool cut_short = stopped && by_portion && !whole.passed();
-    over_ = !cut_short;
+    over_ = !cut_short && !result_.may_improve;
     return cut_short ? SearchStatus::paused : status_of(result_.outcome());
   }
   PathResult result() override { return result_; }

@@ -2,6 +2,7 @@
 #include "dismantle/sequence_planner.h"
 
 #include <fmt/format.h>
+#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -88,9 +89,19 @@ class SequenceView {
   }
 
   Answer attempt(const py::object& moving, const py::object& fixed, unsigned max_depth, const py::object& any_of,
-                 bool resume) {
+                 bool resume, std::uint64_t seed, unsigned best_of, std::uint64_t improve_steps,
+                 const std::vector<Eigen::Vector3d>& without, double angle) {
     PathOracle& asked = oracle();
-    const Attempt question = this->question(moving, fixed, max_depth, any_of, resume);
+    Attempt question = this->question(moving, fixed, max_depth, any_of, resume);
+    question.seed = seed;
+    question.best_of = best_of;
+    question.improve_steps = improve_steps;
+    question.goal.angle = angle;
+    for (const Eigen::Vector3d& direction : without) {
+      if (!(direction.norm() > 0) || !direction.allFinite())
+        throw py::value_error("without: directions are finite vectors, not zero");
+      question.goal.without.push_back(direction.normalized());
+    }
     const AttemptResult* result = nullptr;
     {
       py::gil_scoped_release release;
@@ -293,12 +304,17 @@ void bind_sequence_planner(py::module_& m) {
       .def_property_readonly("groups", &SequenceView::groups,
                              "Lists of numbers of parts that are still together; at first one with all parts.")
       .def("attempt", &SequenceView::attempt, py::arg("moving"), py::arg("fixed") = py::none(),
-           py::arg("max_depth") = 0, py::arg("any_of") = py::tuple(), py::arg("resume") = false,
+           py::arg("max_depth") = 0, py::arg("any_of") = py::tuple(), py::arg("resume") = false, py::arg("seed") = 0,
+           py::arg("best_of") = 1, py::arg("improve_steps") = 0, py::arg("without") = std::vector<Eigen::Vector3d>{},
+           py::arg("angle") = Goal{}.angle,
            "Can `moving` leave as one group, while `fixed` (None: all others of their group) stay where they are? "
            "Returns an Answer. "
            "max_depth: effort, 0 = no limit. any_of: the moving parts move independently until one of these is out. "
            "resume: the "
-           "search may resume an earlier one.")
+           "search may resume an earlier one. Another answer to the same question: seed draws other random numbers; "
+           "best_of takes the shortest path of so many seeds; improve_steps lets a search that says that it may "
+           "improve go on for a better path; without: directions (N, 3) in which they must not leave, each by `angle` "
+           "in radians.")
       .def("propose", &SequenceView::propose, py::arg("moving"), py::arg("path"), py::arg("fixed") = py::none(),
            py::arg("placement") = false,
            "Checks a path (K, M, 7) that the caller has found, in place of a search; returns an Answer. placement: the "

@@ -27,6 +27,14 @@ struct Attempt {
   /// poses, the same goal, and at least these fixed parts at these poses; a later search may resume this one. This
   /// saves time, but the answer depends on earlier attempts and their order. False: it depends on this question only.
   bool resume = false;
+  /// For attempt() and prefetch(): another answer to the same question. Searches that use random numbers draw others;
+  /// 0: the usual ones.
+  std::uint64_t seed = 0;
+  /// The shortest path of so many searches, with the seeds `seed`, `seed` + 1, ...; >= 1. Length: of the way of the
+  /// point that travels furthest.
+  unsigned best_of = 1;
+  /// Steps and state checks that a search may spend on a better path once it has one, if it says that it may improve.
+  std::uint64_t improve_steps = 0;
 };
 
 /// A removal that was forced: the path, and what is known about it.

@@ -96,6 +96,11 @@ struct Goal {
   /// Intermediate placement, for proposed paths only (never in a query): the parts move and stay in their group. The
   /// path must be valid, but need not separate anything. Cannot be combined with any_of.
   bool placement = false;
+  /// Directions (unit vectors, assembly frame) in which the parts must not leave: the mean displacement of the
+  /// centres of the moving parts from the first to the last pose is at least `angle` away from each of them. The
+  /// checker refuses other paths; planners may use it to leave out what would be refused. Not with `placement`.
+  std::vector<Eigen::Vector3d> without{};
+  double angle = 0.25;  ///< radians, 0 < angle < pi
   bool operator==(const Goal&) const = default;
 };
 
@@ -115,6 +120,10 @@ struct PathQuery {
   /// moving parts at the same poses, the same goal, and at least the present fixed parts. States reachable then are
   /// reachable now. A planner may ignore it.
   const SearchState* resume_from = nullptr;
+  /// For FunctionPathPlanner::plan(). True: `budget` may be that of a portion only; after `timeout`, plan() is called
+  /// again, with a larger one. An anytime planner loses nothing if it says so, too, and ends with its best path
+  /// (PathResult::may_improve): plan() is called again only if a better one is wanted.
+  bool portion = false;
 };
 
 /// Effort and size of a search. The fixed fields mean the same for all planners.
@@ -163,6 +172,7 @@ class DISMANTLE_API PathResult {
                                                   ///< pose per moving part
   std::string message{};                          ///< failed: why, for the user
   std::shared_ptr<const SearchState> state = {};  ///< failed: where a later search can resume; may be null
+  bool may_improve = false;                       ///< solved: another PathSearch::run() may find a better path
 
  private:
   Outcome outcome_ = Outcome::crashed;
@@ -195,7 +205,8 @@ class DISMANTLE_API PathSearch {
   virtual ~PathSearch();
   /// Continues where the last call stopped. `portion.max_steps` and `portion.timeout` limit this call; 0 = no limit
   /// beyond the query's budget, which covers all calls together. A step in progress at the end of the portion is
-  /// completed. `portion.max_depth` is not used: the query limits the depth.
+  /// completed. `portion.max_depth` is not used: the query limits the depth. After `solved` with
+  /// PathResult::may_improve, the search goes on for a better path; it then keeps the best that it has.
   virtual SearchStatus run(const Budget& portion) = 0;
   /// Result of the search, or the result if it were abandoned now.
   virtual PathResult result() = 0;

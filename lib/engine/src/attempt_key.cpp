@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -35,6 +36,10 @@ void append(std::string& bytes, std::uint64_t word) {
   for (int shift = 0; shift < 64; shift += 8) bytes.push_back(static_cast<char>((word >> shift) & 0xff));
 }
 
+void append(std::string& bytes, const Eigen::Vector3d& v) {
+  for (const double c : v) append(bytes, std::bit_cast<std::uint64_t>(c));
+}
+
 void append(std::string& bytes, const std::vector<PlacedPart>& parts) {
   append(bytes, parts.size());
   for (const auto& p : parts) {
@@ -47,9 +52,33 @@ void append(std::string& bytes, const std::vector<PlacedPart>& parts) {
 
 void append(std::string& bytes, const Goal& goal) {
   if (goal.placement) bytes.push_back('p');
+  if (!goal.without.empty()) {
+    bytes.push_back('w');
+    append(bytes, goal.without.size());
+    for (const Eigen::Vector3d& d : goal.without) append(bytes, d);
+    append(bytes, std::bit_cast<std::uint64_t>(goal.angle));
+  }
   if (goal.any_of.empty()) return;
   bytes.push_back('l');
   for (const PartId id : goal.any_of) append(bytes, id);
+}
+
+/// What makes it a question for another answer; nothing for the usual one.
+void append_alternative(std::string& bytes, const Attempt& attempt) {
+  if (attempt.seed == 0 && attempt.improve_steps == 0) return;
+  bytes.push_back('a');
+  append(bytes, attempt.seed);
+  append(bytes, attempt.improve_steps);
+}
+
+void check(const Goal& goal) {
+  if (goal.without.empty()) return;
+  if (goal.placement) throw std::invalid_argument("attempt for a placement that excludes directions of leaving");
+  if (!(goal.angle > 0 && goal.angle < M_PI))
+    throw std::invalid_argument(fmt::format("attempt with the angle {}, not between 0 and pi", goal.angle));
+  for (const Eigen::Vector3d& d : goal.without)
+    if (!(std::abs(d.norm() - 1) < 1e-6))
+      throw std::invalid_argument("attempt without a direction that is no unit vector");
 }
 
 SceneDigest sha256(const std::string& bytes) {
@@ -73,6 +102,7 @@ Attempt canonical(const Attempt& attempt, std::size_t part_count) {
   std::vector<bool> seen(part_count, false);
   canonicalise(result.moving, seen);
   canonicalise(result.fixed, seen);
+  check(result.goal);
   if (result.goal.any_of.empty()) return result;
   if (result.goal.placement || result.moving.size() < 2)
     throw std::invalid_argument("attempt in which one of several parts is to leave, but only one moves or all stay");
@@ -90,6 +120,7 @@ SceneDigest digest_of(const Attempt& canonical_attempt) {
   append(bytes, canonical_attempt.moving);
   append(bytes, canonical_attempt.fixed);
   append(bytes, canonical_attempt.goal);
+  append_alternative(bytes, canonical_attempt);
   return sha256(bytes);
 }
 
@@ -97,6 +128,7 @@ SceneDigest digest_of_moving(const Attempt& canonical_attempt) {
   std::string bytes;
   append(bytes, canonical_attempt.moving);
   append(bytes, canonical_attempt.goal);
+  append_alternative(bytes, canonical_attempt);
   return sha256(bytes);
 }
 
@@ -112,7 +144,7 @@ bool may_follow(const Attempt& now, const Attempt& earlier) {
     return a.part == b.part && a.pose.t == b.pose.t && a.pose.q.coeffs() == b.pose.q.coeffs();
   };
   const auto before = [](const PlacedPart& p, PartId id) { return p.part < id; };
-  return now.goal == earlier.goal &&
+  return now.goal == earlier.goal && now.seed == earlier.seed && now.improve_steps == earlier.improve_steps &&
          std::equal(now.moving.begin(), now.moving.end(), earlier.moving.begin(), earlier.moving.end(), same) &&
          std::all_of(now.fixed.begin(), now.fixed.end(), [&](const PlacedPart& s) {
            const auto then = std::lower_bound(earlier.fixed.begin(), earlier.fixed.end(), s.part, before);

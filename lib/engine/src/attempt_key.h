@@ -10,7 +10,8 @@
 
 namespace dismantle {
 
-/// SHA-256 of the moving and the fixed parts, their poses and the goal; without the depth.
+/// SHA-256 of the moving and the fixed parts, their poses, the goal, and what asks for another answer (Attempt::seed,
+/// improve_steps); without the depth.
 using SceneDigest = Sha256Digest;
 
 struct AttemptKey {
@@ -22,7 +23,7 @@ struct AttemptKey {
 
 /// Sorts moving, fixed and goal parts by id, makes the signs of quaternions unique, and removes negative zeros.
 /// @throws std::invalid_argument when no part moves, a part is listed twice or unknown, a pose is not finite, or a part
-/// of the goal does not move or moves alone.
+/// of the goal does not move or moves alone, or directions that are excluded are no unit vectors.
 Attempt canonical(const Attempt& attempt, std::size_t part_count);
 
 /// As it stands in a canonical attempt.

@@ -50,6 +50,22 @@ class TimedSearch {
     return status_ == SearchStatus::paused && !time_is_up();
   }
 
+  /// Looks for better paths with so many steps and state checks, as long as the search says that there may be some.
+  PathResult improved(std::uint64_t steps) {
+    PathResult best = result();
+    while (is_success(best.outcome()) && best.may_improve && steps > 0 && !time_is_up()) {
+      const std::uint64_t before = effort(best);
+      goes_on(steps);
+      PathResult next = search_.result();
+      if (!is_success(next.outcome())) break;  // the path that it had counts
+      const std::uint64_t spent = effort(next) - std::min(before, effort(next));
+      if (spent == 0) break;
+      steps -= std::min(steps, spent);
+      best = std::move(next);
+    }
+    return best;
+  }
+
   PathResult result() {
     PathResult result = search_.result();
     if (status_ == SearchStatus::paused && time_is_up()) result.fail(Outcome::timeout);
@@ -57,6 +73,7 @@ class TimedSearch {
   }
 
  private:
+  static std::uint64_t effort(const PathResult& result) { return result.stats.steps + result.stats.state_checks; }
   bool time_is_up() const { return limit_ > 0 && spent_ >= limit_; }
 
   PathSearch& search_;
@@ -93,6 +110,8 @@ class AttemptRunner::Checker final : public PathChecker, public geometry::EdgeCh
         answer.reason = "the path ends before any part that is to leave is apart from all others";
       else if (attempt_.goal.any_of.empty() && !runner_.verifier_.apart(group, attempt_.fixed))
         answer.reason = "the path ends before the convex hulls are apart";
+      else if (leaves_in_excluded_direction(written.path))
+        answer.reason = "the parts leave in a direction that the question excludes";
       if (!answer.reason.empty()) return answer;
     }
     answer.verified = accept(std::move(written.path), motion.max_penetration, released);
@@ -132,6 +151,13 @@ class AttemptRunner::Checker final : public PathChecker, public geometry::EdgeCh
   }
 
  private:
+  bool leaves_in_excluded_direction(const Path& path) const {
+    const Eigen::Vector3d out = runner_.normalizer_.displacement(path, attempt_.moving);
+    return std::any_of(attempt_.goal.without.begin(), attempt_.goal.without.end(), [&](const Eigen::Vector3d& d) {
+      return out.dot(d) > out.norm() * std::cos(attempt_.goal.angle);
+    });
+  }
+
   const AttemptRunner& runner_;
   const Attempt& attempt_;
   const RunContext& context_;
@@ -250,7 +276,7 @@ PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, con
   TimedSearch timed(*search, pauses.empty() ? 0 : path_timeout_);
   std::uint64_t spent = 0;
   for (const SearchPause& pause : pauses) {
-    if (!timed.goes_on(pause.steps - spent)) return timed.result();
+    if (!timed.goes_on(pause.steps - spent)) return timed.improved(attempt.improve_steps);
     spent = pause.steps;
     const Clock::time_point begin = Clock::now();
     answer.certificate = pause.proof(search->result().blocked_by);
@@ -263,7 +289,7 @@ PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, con
   }
   while (timed.goes_on(0)) {
   }
-  return timed.result();
+  return timed.improved(attempt.improve_steps);
 }
 
 /// Prepares the parts, so that worlds can be made; on failure fills `result`.

@@ -46,6 +46,10 @@ class AttemptRunner {
   /// Verifies a given path instead of searching. The columns of `path` are in the order of `attempt.moving`.
   ComputedAttempt check_proposal(const Attempt& attempt, const Path& path, const RunContext& context) const;
 
+  /// Upper bound of the way of any point on the path of `answer`, a success; assembly units.
+  double length(const AttemptResult& answer) const {
+    return normalizer_.length(answer.path(), answer.attempt.moving);
+  }
   const std::string& planner_id() const { return planner_id_; }
 
  private:

@@ -75,9 +75,12 @@ ComputedAttempt Oracle::run(PathPlanner& planner, const Question& question, cons
   if (computed.answer.certificate != nullptr) {
     computed.answer.result = infeasible_by(*computed.answer.certificate, attempt);
   } else {
-    computed = runner_.run(planner, attempt, question.key, question.resumed, proofs_.during(attempt, context), context);
+    // Parts that may not leave in some direction may leave in others: no proof says why no path was found.
+    const bool provable = attempt.goal.without.empty();
+    computed = runner_.run(planner, attempt, question.key, question.resumed,
+                           provable ? proofs_.during(attempt, context) : std::vector<SearchPause>{}, context);
     const Clock::time_point begin = Clock::now();
-    if (!computed.interrupted && computed.answer.certificate == nullptr)
+    if (provable && !computed.interrupted && computed.answer.certificate == nullptr)
       computed.answer.certificate = proofs_.after(attempt, computed.answer.result, context);
     computed.answer.proof_seconds += seconds_since(begin);
     if (const Certificate* found = computed.answer.certificate; found != nullptr && found->full_tolerance) {
@@ -160,7 +163,37 @@ Oracle::Question Oracle::question_of(const Attempt& attempt) const {
   return question;
 }
 
+namespace {
+
+/// The questions of several searches for the same, of which the best counts.
+std::vector<Attempt> searches_of(const Attempt& attempt) {
+  if (attempt.best_of == 0) throw std::invalid_argument("attempt for the best of no searches");
+  std::vector<Attempt> searches(attempt.best_of, attempt);
+  for (unsigned k = 0; k < attempt.best_of; ++k) {
+    searches[k].best_of = 1;
+    searches[k].seed = attempt.seed + k;
+  }
+  return searches;
+}
+
+}  // namespace
+
+const AttemptResult& Oracle::best_of(const Attempt& attempt, RunContext& context) {
+  const AttemptResult *best = nullptr, *first = nullptr;
+  double shortest = 0;
+  for (const Attempt& search : searches_of(attempt)) {
+    const AttemptResult& answer = this->attempt(search, context);
+    if (first == nullptr) first = &answer;
+    if (answer.certificate != nullptr || answer.result.outcome() == Outcome::start_is_goal) return answer;
+    if (!is_success(answer.result.outcome())) continue;
+    const double length = runner_.length(answer);
+    if (best == nullptr || length < shortest) best = &answer, shortest = length;
+  }
+  return best != nullptr ? *best : *first;
+}
+
 const AttemptResult& Oracle::attempt(const Attempt& attempt, RunContext& context) {
+  if (attempt.best_of != 1) return best_of(attempt, context);
   const std::lock_guard lock(ask_mutex_);
   Question question = question_of(attempt);
   if (const AttemptResult* known = remembered(question.key)) {
@@ -198,15 +231,16 @@ void Oracle::prefetch(std::span<const Attempt> attempts, RunContext& context) {
   if (!computed_ahead_.computes_ahead() || context.should_stop()) return;
   std::deque<SpeculativeCache<AttemptKey, LoggedAttempt>::Sequence> wanted;
   const std::lock_guard lock(ask_mutex_);
-  for (const Attempt& attempt : attempts) {
-    Question question = question_of(attempt);
-    if (remembered(question.key)) continue;
-    const AttemptKey key = question.key;
-    const auto compute_it = [this, question = std::move(question)](const RunContext& c) {
-      return compute(question, c);
-    };
-    wanted.push_back({{key, compute_it}});
-  }
+  for (const Attempt& several : attempts)
+    for (const Attempt& attempt : searches_of(several)) {
+      Question question = question_of(attempt);
+      if (remembered(question.key)) continue;
+      const AttemptKey key = question.key;
+      const auto compute_it = [this, question = std::move(question)](const RunContext& c) {
+        return compute(question, c);
+      };
+      wanted.push_back({{key, compute_it}});
+    }
   computed_ahead_.prefetch(std::move(wanted), context);
 }
 

@@ -78,6 +78,7 @@ class Oracle final : public PathOracle {
     AttemptKey key;
     const AttemptResult* resumed = nullptr;  ///< the answer of the search that this one resumes
   };
+  const AttemptResult& best_of(const Attempt& attempt, RunContext& context);
   Question question_of(const Attempt& attempt) const;
   const AttemptResult* last_resumable(const Attempt& canonical_attempt) const;
   const AttemptResult* remembered(const AttemptKey& key);

@@ -91,6 +91,15 @@ std::vector<double> PathNormalizer::lengths_along(const Path& path, const std::v
   return lengths;
 }
 
+Eigen::Vector3d PathNormalizer::displacement(const Path& path, const std::vector<PlacedPart>& moving) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const Eigen::Vector3d& center = balls_[moving[i].part].center;
+    sum += path.back()[i] * center - path.front()[i] * center;
+  }
+  return sum / static_cast<double>(moving.size());
+}
+
 // Ramer-Douglas-Peucker on screw motions: an instant is dropped if it lies within the tolerance on the screw motion
 // between kept instants, at the parameter that follows from the path length.
 std::vector<std::size_t> PathNormalizer::essential(const Path& path, const std::vector<double>& lengths,

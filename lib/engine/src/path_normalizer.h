@@ -43,6 +43,13 @@ class PathNormalizer {
   /// of the scene. Refuses paths that are not finite, have the wrong width or start elsewhere.
   NormalizedPath normalize(const Path& path, const std::vector<PlacedPart>& moving) const;
 
+  /// Upper bound of the way of any point of the moving parts; assembly units.
+  double length(const Path& path, const std::vector<PlacedPart>& moving) const {
+    return lengths_along(path, moving).back();
+  }
+  /// Mean displacement of the centres of the moving parts from the first to the last pose; assembly units.
+  Eigen::Vector3d displacement(const Path& path, const std::vector<PlacedPart>& moving) const;
+
   double size() const { return size_; }              ///< largest edge of the assembly, assembly units
   double max_travel() const { return max_travel_; }  ///< assembly units
   double tolerance() const { return tolerance_; }    ///< assembly units
