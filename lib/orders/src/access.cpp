@@ -15,13 +15,6 @@ namespace {
 
 constexpr std::uint64_t kEffort = 6000;  // judged steps for each part
 
-Eigen::Vector3d last_direction(const Trace& path) {
-  if (path.size() < 2) return Eigen::Vector3d::Zero();
-  const Eigen::Vector3d displacement = path.back().front().t - path[path.size() - 2].front().t;
-  return displacement.norm() > 1e-12 ? Eigen::Vector3d(displacement.normalized())
-                                     : Eigen::Vector3d(Eigen::Vector3d::Zero());
-}
-
 }  // namespace
 
 PartAccess access_as_planned(PartId part, const Disassembly& plan, const Constraints& constraints) {

@@ -25,12 +25,6 @@ namespace {
 constexpr double kSameDirection = 1 - 1e-9;  // cosine
 constexpr std::size_t kMostUsed = 12;        // directions of the plan that are tried for every part
 
-/// Of the last stretch; zero: a rotation in place.
-Vector3d last_direction(const Path& path) {
-  const Vector3d displacement = path.back().front().t - path[path.size() - 2].front().t;
-  return displacement.norm() > 1e-12 ? Vector3d(displacement.normalized()) : Vector3d(Vector3d::Zero());
-}
-
 bool is_straight(const Path& path) {
   const Vector3d out = last_direction(path);
   for (std::size_t i = 0; i < path.front().size(); ++i)
@@ -45,6 +39,12 @@ bool is_straight(const Path& path) {
 }
 
 }  // namespace
+
+Vector3d last_direction(const Path& path) {
+  if (path.size() < 2) return Vector3d::Zero();
+  const Vector3d displacement = path.back().front().t - path[path.size() - 2].front().t;
+  return displacement.norm() > 1e-12 ? Vector3d(displacement.normalized()) : Vector3d(Vector3d::Zero());
+}
 
 Removals::Removals(const Assembly& assembly, const Disassembly& plan, const Constraints& constraints,
                    const Objective& objective, const Verifier& verifier, const RunContext& context)

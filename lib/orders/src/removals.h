@@ -16,6 +16,9 @@
 
 namespace dismantle {
 
+/// Direction of the last stretch of a removal, unit; zero: a rotation in place.
+Eigen::Vector3d last_direction(const Path& path);
+
 /// Units are parts, or parts that are kept together. Pairs are tested when they are asked about, and remembered.
 class Removals final : public order::Problem {
  public:
