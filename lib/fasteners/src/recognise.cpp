@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "dismantle/executor.h"
 #include "dismantle/geometry/congruent_parts.h"
@@ -25,6 +26,15 @@ bool alike(Kind shape, Kind name) {
          both({pin, shaft}) || both({pulley, gear, wheel}) || both({ring, belt, spring}) ||
          both({plate, board, housing, rail}) || both({nut, insert, standoff, spacer}) || both({screw, insert});
 }
+
+/// Kinds whose outline is round, whatever else is on them.
+bool is_round(Kind kind) {
+  using enum Kind;
+  return kind == bearing || kind == gear || kind == pulley || kind == wheel || kind == insert;
+}
+
+/// Between a square and a hexagon.
+constexpr double kRound = 0.8;
 
 std::string said(Kind kind, const std::string& size, double length) {
   const std::string text = size_text(kind, size, length);
@@ -65,6 +75,9 @@ PartKind combined(const Shape& shape, const NameSays& name) {
                 fmt::format("shape: {}", shape.reason));
   const Kind named = *name.kind;
   if (shape.kind == named) return agreed(named, shape, name);
+  if (shape.kind == Kind::other && is_round(named) && shape.roundness < kRound)
+    return made(Kind::other, "", 0,
+                fmt::format("the name ('{}') says {}, and the shape is not round", name.reason, to_string(named)));
   if (shape.kind == Kind::other)
     return made(named, size_text(named, name.thread, name.length), 0.75 * name.confidence,
                 fmt::format("name: '{}'; shape: {}", name.reason, shape.reason));
@@ -146,14 +159,41 @@ std::vector<Shape> shapes_of(const Assembly& assembly, const RunContext& context
   return out;
 }
 
+/// The volume of the largest body of each use of a product that has several, by the id of that use.
+static std::map<std::string, double> largest_bodies(const Assembly& assembly) {
+  std::map<std::string, double> largest;
+  std::map<std::string, std::size_t> bodies;
+  for (const Part& part : assembly.parts) {
+    if (part.instances.empty()) continue;
+    double& volume = largest[part.instances.back()];
+    volume = std::max(volume, part.volume);
+    ++bodies[part.instances.back()];
+  }
+  std::erase_if(largest, [&](const auto& use) { return bodies[use.first] < 2; });
+  return largest;
+}
+
 void recognise_kinds(Assembly& assembly, const RunContext& context, const KindOptions& options) {
   const std::vector<Shape> shapes = shapes_of(assembly, context);
+  const auto largest = largest_bodies(assembly);
+  // A motor is a machine: of a product of that name, the largest body is it, and the others are parts of it.
+  const auto is_part_of_motor = [&](const Part& part, const NameSays& name) {
+    if (name.kind != Kind::motor || part.instances.empty()) return false;
+    const auto use = largest.find(part.instances.back());
+    return use != largest.end() && part.volume < 0.999 * use->second;
+  };
   for (Part& part : assembly.parts) {
     if (part.kind) continue;
     NameSays name;
     if (options.names) {
       if (!part.product.empty()) name = recognise_name(part.product);
+      const bool inside = is_part_of_motor(part, name);
       if (!name.kind) name = recognise_name(part.name);
+      if (inside) {
+        part.kind = combined(shapes[part.id], NameSays{});
+        part.kind->reason += fmt::format("; a body of '{}'", part.product);
+        continue;
+      }
     }
     part.kind = combined(shapes[part.id], name);
   }

@@ -5,9 +5,8 @@
 
 namespace dismantle::fasteners {
 
-/// None: it is not turned about any axis.
-static std::optional<Body> body_of(const Mesh& mesh, double mm) {
-  const auto axis = turned_axis(mesh);
+/// None: it is not turned about `axis`.
+static std::optional<Body> body_of(const Mesh& mesh, const std::optional<TurnedAxis>& axis, double mm) {
   if (!axis || axis->share <= 0.55) return std::nullopt;
   std::size_t shells = 0;
   shells_of(mesh, shells);
@@ -24,17 +23,19 @@ Shape recognise_shape(const Mesh& mesh, double mm) {
   other.reason = "no known shape";
   other.radius = mesh.box().size().norm() / 2;
   if (mesh.empty()) return other;
-  if (const auto body = body_of(mesh, mm))
+  const auto axis = turned_axis(mesh);
+  if (const auto body = body_of(mesh, axis, mm))
     for (const auto& recognise : {nut_of, screw_of, ring_of, bar_of})
       if (auto shape = recognise(*body)) return *shape;
   for (const auto& recognise : {slot_nut_of, strand_of, flat_of})
     if (auto shape = recognise(mesh, mm)) return *shape;
+  if (axis) other.roundness = roundness(mesh, axis->axis, axis->point);
   return other;
 }
 
 std::optional<Shape> shape_as(Kind kind, const Mesh& mesh, double mm) {
   if (mesh.empty() || (kind != Kind::screw && kind != Kind::nut)) return std::nullopt;
-  const auto body = body_of(mesh, mm);
+  const auto body = body_of(mesh, turned_axis(mesh), mm);
   if (!body) return std::nullopt;
   return kind == Kind::screw ? screw_form(*body) : nut_form(*body);
 }

@@ -125,6 +125,24 @@ std::optional<TurnedAxis> turned_axis(const Mesh& mesh) {
   return best;
 }
 
+double roundness(const Mesh& mesh, const Vector3d& axis, const Vector3d& point) {
+  constexpr std::size_t kTangents = 72;
+  const Vector3d u = axis.unitOrthogonal(), v = axis.cross(u);
+  std::array<Vector2d, kTangents> normals;
+  for (std::size_t i = 0; i < kTangents; ++i) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / kTangents;
+    normals[i] = {std::cos(angle), std::sin(angle)};
+  }
+  std::array<double, kTangents> widths{};  // an axis outside has some of 0
+  double farthest = 0;
+  for (const Vector3d& p : mesh.vertices) {
+    const Vector2d at(u.dot(p - point), v.dot(p - point));
+    farthest = std::max(farthest, at.norm());
+    for (std::size_t i = 0; i < kTangents; ++i) widths[i] = std::max(widths[i], normals[i].dot(at));
+  }
+  return farthest > 0 ? *std::min_element(widths.begin(), widths.end()) / farthest : 0;
+}
+
 Turned::Turned(const Mesh& mesh, const Vector3d& axis, const Vector3d& point)
     : mesh_(&mesh), axis_(axis), point_(point), u_(axis.unitOrthogonal()), v_(axis.cross(u_)) {
   local_.reserve(mesh.vertices.size());

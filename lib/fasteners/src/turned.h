@@ -44,6 +44,11 @@ struct Loop {
   bool hole = false;
 };
 
+/// Of the outline of a mesh seen along an axis: the smallest distance of 72 tangents of its convex hull from the axis,
+/// over the largest one of a vertex. 1: a circle about the axis; a hexagon has about 0.87, a square 0.71; 0: the axis
+/// passes outside.
+double roundness(const Mesh& mesh, const Eigen::Vector3d& axis, const Eigen::Vector3d& point);
+
 /// The shape of a mesh about one axis.
 class Turned {
  public:

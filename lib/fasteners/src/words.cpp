@@ -162,6 +162,14 @@ constexpr std::array kWords{
     Word{"gehaeuse", housing, false},
     Word{"gearbox", housing, true},
     // Something else, although its name has such a word before these.
+    Word{"battery", other, true},
+    Word{"batterie", other, true},
+    Word{"akku", other, false},
+    Word{"bateria", other, true},
+    Word{"14500", other, true},  // sizes of cells
+    Word{"18650", other, true},
+    Word{"21700", other, true},
+    Word{"26650", other, true},
     Word{"holder", kNothing, true},
     Word{"cover", kNothing, true},
     Word{"mount", kNothing, true},

@@ -46,6 +46,28 @@ TEST(CombinedKind, TheNameDecidesWhereShapesAreAlike) {
   EXPECT_EQ(combined(shape_of(Kind::other, 0), recognise_name("Body1")).kind, "other");
 }
 
+// What the name says is round must look round: a bracket is no bearing, whatever it is called.
+TEST(CombinedKind, WhatIsNotRoundIsNoBearing) {
+  std::mt19937_64 random(55);
+  for (const double side : {20.0, 30.0}) {
+    const Shape bracket = recognise_shape(placed(nut(polygon(3, side), 8, 30), random, 1), 1);
+    ASSERT_EQ(bracket.kind, Kind::other) << bracket.reason;
+    EXPECT_LT(bracket.roundness, 0.55);
+    for (const char* name : {"Lager", "ball bearing", "tray insert", "idler"}) {
+      const PartKind kind = combined(bracket, recognise_name(name));
+      EXPECT_EQ(kind.kind, "other") << name;
+      EXPECT_NE(kind.reason.find("not round"), std::string::npos) << kind.reason;
+    }
+    EXPECT_EQ(combined(bracket, recognise_name("motor")).kind, "motor");
+  }
+}
+
+TEST(CombinedKind, ACellIsNoShaft) {
+  for (const char* name : {"18650", "battery", "LiPo Akku"})
+    EXPECT_EQ(combined(shape_of(Kind::shaft, 0.7, "18"), recognise_name(name)).kind, "other") << name;
+  EXPECT_EQ(combined(shape_of(Kind::plate, 0.7), recognise_name("battery holder")).kind, "plate");
+}
+
 Part part_of(PartId id, const char* name, Mesh mesh) {
   Part part;
   part.id = id;
@@ -97,6 +119,26 @@ TEST(RecogniseKinds, NoNamesMeansShapesAlone) {
   assembly.parts.push_back(part_of(0, "DIN 912 M4x20", ring(10, 5.1, 6)));
   recognise_kinds(assembly, RunContext{}, {.names = false});
   EXPECT_EQ(assembly.parts[0].kind->kind, "spacer");
+}
+
+// A product named motor: its largest body is the motor, the others are what their shapes say.
+TEST(RecogniseKinds, BodiesOfAMotorAreNoMotors) {
+  for (const bool together : {true, false}) {
+    Assembly assembly;
+    assembly.parts.push_back(part_of(0, "servo:Body1", nut(polygon(3, 20), 8, 30)));
+    assembly.parts.push_back(part_of(1, "servo:Body2", screw({5, 20, 8.5, 5, {}, polygon(6, 4), 2.5})));
+    assembly.parts.push_back(part_of(2, "servo:Body3", nut(polygon(3, 10), 4, 15)));
+    for (Part& part : assembly.parts) {
+      part.product = "servo";
+      part.volume = part.id == 0 ? 10000 : 1000;
+      part.instances = {together ? "use" : "use " + part.name};
+    }
+    recognise_kinds(assembly, RunContext{});
+    EXPECT_EQ(assembly.parts[0].kind->kind, "motor");
+    EXPECT_EQ(assembly.parts[1].kind->kind, "screw");
+    EXPECT_EQ(assembly.parts[2].kind->kind, together ? "other" : "motor");
+    EXPECT_EQ(assembly.parts[1].kind->reason.find("disagree") == std::string::npos, together);
+  }
 }
 
 // A bolt and a nut of no known size: what their names say they are gives their shapes an axis, a shank and a hole.

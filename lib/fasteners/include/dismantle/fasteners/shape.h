@@ -28,6 +28,8 @@ struct Shape {
   double shank_radius = 0;                          ///< of a screw or pin, or of a hole; unit of the mesh
   double head_height = 0;                           ///< of a screw, unit of the mesh
   double recess_depth = 0;                          ///< of the drive below the top, unit of the mesh
+  /// Of a shape that is not known: roundness(); 1 where it was not looked at.
+  double roundness = 1;
 };
 
 /// `mm`: millimetres in a unit of the mesh, > 0. The mesh must be closed; open ones are `other`. The pose, the scale
