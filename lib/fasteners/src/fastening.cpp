@@ -6,6 +6,7 @@
 
 #include "dismantle/executor.h"
 #include "dismantle/fasteners/recognise.h"
+#include "dismantle/geometry/box_index.h"
 #include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/stop_if_asked.h"
 #include "sizes.h"
@@ -49,8 +50,9 @@ struct Stretch {
 
 class Screw {
  public:
-  Screw(const Assembly& assembly, std::span<const Shape> shapes, const SurfaceOf& surface, PartId id, double mm)
-      : assembly_(assembly), shapes_(shapes), surface_(surface), id_(id), shape_(shapes[id]), mm_(mm) {
+  Screw(const Assembly& assembly, const geometry::BoxIndex& boxes, std::span<const Shape> shapes,
+        const SurfaceOf& surface, PartId id, double mm)
+      : assembly_(assembly), boxes_(boxes), shapes_(shapes), surface_(surface), id_(id), shape_(shapes[id]), mm_(mm) {
     const Thread* thread = thread_named(thread_name(assembly.parts[id], shape_));
     known_ = thread != nullptr;
     diameter_ = thread != nullptr ? thread->diameter / mm : 2 * shape_.shank_radius;
@@ -62,7 +64,13 @@ class Screw {
   }
 
   Fastening fastening() {
-    for (const Part& part : assembly_.parts) look_at(part);
+    const double widest = headed_ ? 0.98 * shape_.radius : 1.2 * radius();
+    const double first = -shape_.head_height, end = length_ + 2 * diameter_;
+    Aabb around;
+    around.extend(at(first));
+    around.extend(at(end));
+    around.inflate(widest);
+    for (const std::size_t part : boxes_.overlapping(around)) look_at(assembly_.parts[part], first, end, widest);
     std::stable_sort(stretches_.begin(), stretches_.end(),
                      [](const Stretch& a, const Stretch& b) { return a.from < b.from; });
     out_.screw = id_;
@@ -89,16 +97,10 @@ class Screw {
     return std::find(list.begin(), list.end(), part) != list.end();
   }
 
-  void look_at(const Part& part) {
+  /// Along the axis from `first` to `end`, up to `widest` from it.
+  void look_at(const Part& part, double first, double end, double widest) {
     const Kind k = kind(part.id);
     if (part.id == id_ || part.open || k == Kind::screw || k == Kind::spring) return;
-    const double widest = headed_ ? 0.98 * shape_.radius : 1.2 * radius();
-    const double first = -shape_.head_height, end = length_ + 2 * diameter_;
-    Aabb around;
-    around.extend(at(first));
-    around.extend(at(end));
-    around.inflate(widest);
-    if (!around.overlaps(part.mesh->box())) return;
     const TriangleBvh& surface = surface_(part.id);
     bool open = false;
     const auto count = static_cast<int>(std::ceil((end - first) / step_));
@@ -255,11 +257,15 @@ class Screw {
         return;
       }
     if (length_ < stack_end_ + 0.5 * diameter_) return;
-    for (const Part& part : assembly_.parts) {
-      if (part.id == id_ || contains(stack_, part.id)) continue;
+    Aabb around;
+    around.extend(at(stack_end_));
+    around.extend(at(length_ + 0.5 * diameter_));
+    around.inflate(diameter_);
+    for (const std::size_t part : boxes_.overlapping(around)) {
+      if (part == id_ || contains(stack_, static_cast<PartId>(part))) continue;
       for (double t = stack_end_ + 0.2 * diameter_; t < length_ + 0.5 * diameter_; t += 0.2 * diameter_) {
-        if (part.mesh->box().squared_distance(at(t)) > diameter_ * diameter_) continue;
-        const TriangleBvh& surface = surface_(part.id);
+        if (boxes_.box(part).squared_distance(at(t)) > diameter_ * diameter_) continue;
+        const TriangleBvh& surface = surface_(static_cast<PartId>(part));
         if (surface.closest(at(t), 0.75 * diameter_).distance < 0.75 * diameter_ || surface.inside(at(t))) return;
       }
     }
@@ -267,6 +273,7 @@ class Screw {
   }
 
   const Assembly& assembly_;
+  const geometry::BoxIndex& boxes_;
   std::span<const Shape> shapes_;
   const SurfaceOf& surface_;
   PartId id_;
@@ -320,9 +327,10 @@ std::vector<Fastening> fastenings_of(const Assembly& assembly, std::span<const S
     if (!part.open && shapes[part.id].kind == Kind::screw && kind_of(part, shapes[part.id]) == Kind::screw)
       screws.push_back(part.id);
   std::vector<Fastening> out(screws.size());
+  const geometry::BoxIndex boxes = geometry::index_of_parts(assembly);
   parallel_for(
       screws.size(), context,
-      [&](std::size_t i) { out[i] = Screw(assembly, shapes, surface, screws[i], mm).fastening(); },
+      [&](std::size_t i) { out[i] = Screw(assembly, boxes, shapes, surface, screws[i], mm).fastening(); },
       [&] { return context.should_stop(); });
   stop_if_asked(context, "finding what screws clamp");
   find_only(assembly, out);

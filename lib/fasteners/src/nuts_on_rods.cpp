@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dismantle/fasteners/fastening.h"
+#include "dismantle/geometry/box_index.h"
 #include "dismantle/geometry/triangle_bvh.h"
 
 namespace dismantle::fasteners {
@@ -27,16 +28,17 @@ bool fills(const Shape& nut, const TriangleBvh& part) {
 std::vector<NutOnRod> nuts_on_rods(const Assembly& assembly, std::span<const Shape> shapes,
                                    std::span<const Fastening> fastenings, const SurfaceOf& surface) {
   std::vector<NutOnRod> found;
+  const geometry::BoxIndex boxes = geometry::index_of_parts(assembly);
   for (const Part& nut : assembly.parts) {
     const Shape& shape = shapes[nut.id];
     if (!is_nut(nut) || nut.open || !(shape.shank_radius > 0) || !(shape.height > 0)) continue;
     const auto has = [&](const Fastening& f) { return std::ranges::find(f.into, nut.id) != f.into.end(); };
     if (std::ranges::any_of(fastenings, has)) continue;
-    const Aabb box = nut.mesh->box();
-    for (const Part& rod : assembly.parts)
-      if (rod.id != nut.id && !rod.open && !is_screw(rod) && box.overlaps(rod.mesh->box()) &&
-          fills(shape, surface(rod.id)))
+    for (const std::size_t other : boxes.overlapping(boxes.box(nut.id))) {
+      const Part& rod = assembly.parts[other];
+      if (rod.id != nut.id && !rod.open && !is_screw(rod) && fills(shape, surface(rod.id)))
         found.push_back({nut.id, rod.id});
+    }
   }
   return found;
 }

@@ -65,6 +65,7 @@ bool lay_circlip(const Mesh& mesh, double mm, tools::Fastener& fastener) {
 
 FastenerMemo::FastenerMemo(const Assembly& assembly)
     : assembly_(assembly),
+      boxes_(geometry::index_of_parts(assembly)),
       mm_(fasteners::millimetres_per_unit(assembly)),
       surface_once_(assembly.parts.size()),
       driven_once_(assembly.parts.size()),
@@ -202,10 +203,12 @@ void FastenerMemo::find_partners(Driven& driven, const Shape& shape) const {
   const double radius = f.kind == Kind::ring ? f.radius / mm_ : shape.shank_radius;
   const Eigen::Vector3d at = f.top - (f.kind == Kind::screw ? 0.85 : 0.5) * height * f.axis;
   std::vector<std::pair<double, PartId>> near;
-  for (const Part& part : assembly_.parts) {
-    if (part.id == driven.part) continue;
-    const double limit = 1.5 * radius;
-    if (part.mesh->box().squared_distance(at) > limit * limit) continue;
+  const double limit = 1.5 * radius;
+  Aabb around{at, at};
+  around.inflate(limit);
+  for (const std::size_t id : boxes_.overlapping(around)) {
+    const Part& part = assembly_.parts[id];
+    if (part.id == driven.part || boxes_.box(id).squared_distance(at) > limit * limit) continue;
     const TriangleBvh& other = surface(part.id);
     // What is in a hole is nearer than what is around it.
     const double distance =
@@ -291,10 +294,12 @@ std::optional<PartId> FastenerMemo::kept_by(const Driven& driven, std::span<cons
   const Eigen::Vector3d u = f.axis.unitOrthogonal(), v = f.axis.cross(u);
   constexpr int angles = 36;  // the corners go round on this circle
   const double radius = 0.985 * f.radius / mm_;
+  const Eigen::Vector3d middle = f.top - 0.5 * f.grip / mm_ * f.axis;
+  const double reach = 1.001 * std::hypot(radius, 0.3 * f.grip / mm_);  // of the points below
   for (const PlacedPart& part : there) {
     if (part.part == driven.part || assembly_.parts[part.part].open) continue;
-    if (driven_by_thread(part.part)) continue;
     const Pose to = part.pose.inverse() * at;
+    if (boxes_.box(part.part).squared_distance(to * middle) > reach * reach || driven_by_thread(part.part)) continue;
     for (const double share : {0.2, 0.5, 0.8})
       for (int k = 0; k < angles; ++k) {
         const double angle = 2 * std::numbers::pi * k / angles;

@@ -15,6 +15,7 @@
 #include "dismantle/fasteners/fastening.h"
 #include "dismantle/fasteners/pattern.h"
 #include "dismantle/fasteners/shape.h"
+#include "dismantle/geometry/box_index.h"
 #include "dismantle/simulator.h"
 #include "dismantle/tools/access.h"
 
@@ -103,6 +104,7 @@ class FastenerMemo {
 
   const Assembly& assembly_;
   std::vector<std::shared_ptr<const Mesh>> meshes_;
+  geometry::BoxIndex boxes_;
   double mm_;
   mutable std::vector<std::once_flag> surface_once_, driven_once_;
   mutable std::vector<std::unique_ptr<TriangleBvh>> surfaces_;
