@@ -87,7 +87,33 @@ SceneDigest sha256(const std::string& bytes) {
   return hash.digest();
 }
 
+void mix(PlacesDigest& digest, PartId part, const Pose& pose) {
+  auto& [a, b, count] = digest;
+  const auto add = [&](std::uint64_t word) {
+    a = (a ^ word) * 0x9e3779b97f4a7c15ULL;
+    a ^= a >> 29;
+    b = (b + word) * 0xbf58476d1ce4e5b9ULL;
+    b ^= b >> 31;
+  };
+  add(part);
+  for (const double c : {pose.t.x(), pose.t.y(), pose.t.z(), pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z()})
+    add(std::bit_cast<std::uint64_t>(c));
+  ++count;
+}
+
 }  // namespace
+
+PlacesDigest digest_of(std::span<const PartId> parts, std::span<const Pose> poses) {
+  PlacesDigest digest{};
+  for (const PartId id : parts) mix(digest, id, poses[id]);
+  return digest;
+}
+
+PlacesDigest digest_of(std::span<const PlacedPart> parts) {
+  PlacesDigest digest{};
+  for (const PlacedPart& p : parts) mix(digest, p.part, p.pose);
+  return digest;
+}
 
 Pose canonical(Pose pose) {
   if (has_wrong_sign(pose.q)) pose.q.coeffs() = -pose.q.coeffs();

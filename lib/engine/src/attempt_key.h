@@ -1,8 +1,10 @@
 /// Identity of a question to the oracle: the same parts at the same poses are the same question, in any order.
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "dismantle/path_oracle.h"
@@ -41,6 +43,13 @@ SceneDigest digest_of_moving(const Attempt& canonical_attempt);
 /// May the search for `now` resume the one for `earlier`? Both are canonical. True if the same parts move from the same
 /// poses to the same goal, and every part that is fixed now was fixed at the same pose then.
 bool may_follow(const Attempt& now, const Attempt& earlier);
+
+/// Stands for placed parts that are not kept any more: differs for other parts, other poses, or another order. Much
+/// cheaper than SHA-256, and no protection against someone who looks for two lists with the same value.
+using PlacesDigest = std::array<std::uint64_t, 3>;
+/// `poses`: by part, canonical.
+PlacesDigest digest_of(std::span<const PartId> parts, std::span<const Pose> poses);
+PlacesDigest digest_of(std::span<const PlacedPart> canonical_parts);
 
 /// Random stream of the question: the same on every machine, in any order of asking, and for new and resumed searches.
 std::uint64_t stream_of(const AttemptKey& key);

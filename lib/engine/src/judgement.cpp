@@ -112,13 +112,39 @@ struct Asked {
   const PlanObjectiveItem& item;
 };
 
+/// The parts that are present at each step, from the last step to the first: only those that move are looked at.
+class Present {
+ public:
+  explicit Present(const Disassembly& done) : done_(done), lists_(done.groups().size()) {}
+  /// Operation of step `k`, which is one less than at the call before.
+  Operation operation(std::size_t k, const Assembly& assembly, const Eigen::Vector3d& up) {
+    const DisassemblyStep& step = done_.steps()[k];
+    std::optional<std::vector<PlacedPart>>& list = lists_[done_.left_group(k)];
+    if (!list) list = done_.placed(done_.groups()[done_.left_group(k)]);
+    std::erase_if(*list, [&](const PlacedPart& p) { return contains(step.parts, p.part); });  // that stay, elsewhere
+    const std::vector<PlacedPart> moved = done_.placed(step.parts, k);
+    Operation operation(assembly, moved, *list, *step.path, step.up.value_or(up));
+    std::vector<PlacedPart> with;
+    with.reserve(list->size() + moved.size());
+    std::merge(list->begin(), list->end(), moved.begin(), moved.end(), std::back_inserter(with),
+               [](const PlacedPart& a, const PlacedPart& b) { return a.part < b.part; });
+    *list = std::move(with);
+    return operation;
+  }
+
+ private:
+  const Disassembly& done_;
+  std::vector<std::optional<std::vector<PlacedPart>>> lists_;  // by group; ascending
+};
+
 /// Operations are made one after the other: each holds all parts that are present.
 std::vector<Judged> judge_with(const std::vector<Asked>& checks, const Disassembly& done, const Assembly& assembly,
                                const Eigen::Vector3d& up, const RunContext& context) {
   std::vector<Judged> judged(checks.size());
   std::optional<Operation> before;
+  Present present(done);
   for (std::size_t k = done.steps().size(); k-- > 0;) {
-    std::optional<Operation> now(operation_of(done, k, assembly, up));
+    std::optional<Operation> now(present.operation(k, assembly, up));
     const std::optional<StepQuestion> earlier = before ? std::optional(before->question()) : std::nullopt;
     const StepQuestion question = now->question(earlier ? &*earlier : nullptr);
     for (std::size_t c = 0; c < checks.size(); ++c)
@@ -164,11 +190,12 @@ std::string difference(const PlanVerdict& stated, const PlanVerdict& now) {
 Operation operation_of(const Disassembly& disassembly, std::size_t k, const Assembly& assembly,
                        const Eigen::Vector3d& up) {
   const DisassemblyStep& step = disassembly.steps().at(k);
-  std::vector<PartId> present;
+  const std::size_t group = disassembly.left_group(k);
+  std::vector<PlacedPart> present;
   for (PartId id = 0; id < disassembly.parts(); ++id)
-    if (disassembly.group(id, k) == disassembly.left_group(k) && !contains(step.parts, id)) present.push_back(id);
-  return {assembly, disassembly.placed(step.parts, k), disassembly.placed(present, k), *step.path,
-          step.up.value_or(up)};
+    if (disassembly.group(id, k) == group && !contains(step.parts, id))
+      present.push_back({id, disassembly.pose(id, k)});
+  return {assembly, disassembly.placed(step.parts, k), std::move(present), *step.path, step.up.value_or(up)};
 }
 
 void judge(Plan& plan, const Disassembly& disassembly, const Assembly& assembly, const Objective& objective,

@@ -275,6 +275,33 @@ const AttemptResult& Oracle::keep_forced(AttemptResult answer) {
   return kept;
 }
 
+void Oracle::recorded(const AttemptResult& answer) {
+  const std::lock_guard lock(ask_mutex_);
+  // The latest answers are recorded, so that the one in question is found at once.
+  const auto own =
+      std::find_if(results_.rbegin(), results_.rend(), [&](const AttemptResult& a) { return &a == &answer; });
+  if (own == results_.rend() || emptied_.contains(&answer) ||
+      std::find(recorded_.rbegin(), recorded_.rend(), &*own) != recorded_.rend())
+    return;
+  recorded_.push_back(&*own);
+  kept_ += own->attempt.fixed.size();
+  while (kept_ > most_kept_ && recorded_.size() > 1) {
+    std::vector<PlacedPart>& fixed = recorded_.front()->attempt.fixed;
+    emptied_.emplace(recorded_.front(), digest_of(std::span<const PlacedPart>(fixed)));
+    kept_ -= fixed.size();
+    fixed = {};
+    recorded_.pop_front();
+  }
+}
+
+bool Oracle::were_fixed(const AttemptResult& answer, std::span<const PartId> parts, std::span<const Pose> poses) const {
+  if (const auto known = emptied_.find(&answer); known != emptied_.end())
+    return known->second == digest_of(parts, poses);
+  const std::vector<PlacedPart>& fixed = answer.attempt.fixed;
+  return std::equal(parts.begin(), parts.end(), fixed.begin(), fixed.end(),
+                    [&](PartId id, const PlacedPart& p) { return p.part == id && p.pose == poses[id]; });
+}
+
 OracleCounts Oracle::counts() const {
   OracleCounts counts;
   counts.attempts = planned_;

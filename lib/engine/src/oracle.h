@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,14 @@ class Oracle final : public PathOracle {
   const std::string& planner_id() const { return runner_.planner_id(); }
   /// Keeps an answer with a forced removal; its question is canonical.
   const AttemptResult& keep_forced(AttemptResult answer);
+  /// To be called when the answer has been recorded as a step. Each answer lists all parts that stay, which is half of
+  /// the square of the parts in all: beyond keep_at_most(), `attempt.fixed` of the oldest recorded answers is
+  /// emptied. Nothing else is forgotten.
+  void recorded(const AttemptResult& answer);
+  /// Were exactly these parts fixed in the question, at these poses (by part, canonical)? Also for emptied lists.
+  bool were_fixed(const AttemptResult& answer, std::span<const PartId> parts, std::span<const Pose> poses) const;
+  void keep_at_most(std::size_t placed_parts) { most_kept_ = placed_parts; }
+  std::size_t kept() const { return kept_; }  ///< such parts now
   /// Proofs that parts cannot be separated.
   ProofSchedule& proofs() { return proofs_; }
   /// As ProofSchedule::seconds.
@@ -97,6 +106,10 @@ class Oracle final : public PathOracle {
   std::unique_ptr<Forcing> forcing_;  ///< null: no step is forced
   std::mutex ask_mutex_;              ///< one question at a time
   std::deque<AttemptResult> results_;
+  std::deque<AttemptResult*> recorded_;           ///< whose lists of fixed parts are kept, the oldest first
+  std::size_t kept_ = 0;                          ///< fixed parts in them
+  std::size_t most_kept_ = std::size_t{1} << 22;  ///< about 300 MiB; the first 2800 steps of a plan have fewer
+  std::map<const AttemptResult*, PlacesDigest> emptied_;
   std::map<AttemptKey, const AttemptResult*> answers_;
   std::map<SceneDigest, Final> finals_;
   std::map<const AttemptResult*, AttemptKey> keys_;  ///< of what can be recorded; proposals are not asked by key

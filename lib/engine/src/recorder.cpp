@@ -29,8 +29,8 @@ DisassemblyStep joined(const DisassemblyStep& last, DisassemblyStep next) {
 
 }  // namespace
 
-Recorder::Recorder(const Assembly& assembly, const Oracle& oracle, const PlanningSetup& setup,
-                   const RunOptions& options, const StepObserver& on_step, const RunContext& context)
+Recorder::Recorder(const Assembly& assembly, Oracle& oracle, const PlanningSetup& setup, const RunOptions& options,
+                   const StepObserver& on_step, const RunContext& context)
     : assembly_(assembly),
       oracle_(oracle),
       setup_(setup),
@@ -38,7 +38,24 @@ Recorder::Recorder(const Assembly& assembly, const Oracle& oracle, const Plannin
       on_step_(on_step),
       context_(context),
       disassembly_(options.start.empty() ? Disassembly(assembly.parts.size())
-                                         : Disassembly(assembly.parts.size(), options.start)) {}
+                                         : Disassembly(assembly.parts.size(), options.start)) {
+  for (PartId id = 0; id < disassembly_.parts(); ++id) poses_.push_back(canonical(disassembly_.pose(id)));
+}
+
+void Recorder::update(const std::vector<PartId>& moved) {
+  for (const PartId id : moved) poses_[id] = canonical(disassembly_.pose(id));
+}
+
+void Recorder::append(DisassemblyStep step) {
+  disassembly_.add(std::move(step));
+  update(disassembly_.steps().back().parts);
+}
+
+void Recorder::pop() {
+  const std::vector<PartId> moved = disassembly_.steps().back().parts;
+  disassembly_.pop();
+  update(moved);
+}
 
 void Recorder::record(const Removal& removal, const DisassemblyStep* earlier) {
   if (!problem_.empty()) throw std::logic_error(problem_);  // the planner ignored an earlier error
@@ -48,6 +65,7 @@ void Recorder::record(const Removal& removal, const DisassemblyStep* earlier) {
     problem_ = e.what();
     throw;
   }
+  oracle_.recorded(*removal.attempt);
   if (!on_step_) return;
   try {
     on_step_(disassembly_, disassembly_.steps().back());
@@ -72,9 +90,9 @@ void Recorder::add(const Removal& removal, const DisassemblyStep* earlier) {
   if (continues_last(step)) {
     replaced = disassembly_.steps().back();
     step = joined(*replaced, std::move(step));
-    disassembly_.pop();
+    pop();
   }
-  disassembly_.add(std::move(step));
+  append(std::move(step));
   if (earlier != nullptr)
     before_.clear();
   else
@@ -84,8 +102,8 @@ void Recorder::add(const Removal& removal, const DisassemblyStep* earlier) {
 bool Recorder::taken_back(std::size_t count) {
   if (count > before_.size()) return false;
   for (; count > 0; --count) {
-    disassembly_.pop();
-    if (before_.back()) disassembly_.add(std::move(*before_.back()));
+    pop();
+    if (before_.back()) append(std::move(*before_.back()));
     before_.pop_back();
   }
   return true;
@@ -99,13 +117,10 @@ void Recorder::check_question(const Removal& removal) const {
   if (!group) throw std::logic_error("the parts of a removal are unknown or not together any more");
   const std::vector<PartId> rest = without(disassembly_.groups()[*group], removal.parts);
   if (rest.empty() && !removal.attempt->out) throw std::logic_error("a removal that leaves nothing behind");
-  const Attempt& question = removal.attempt->attempt;
-  const auto stand = [&](const std::vector<PartId>& parts, const std::vector<PlacedPart>& then) {
-    return std::equal(parts.begin(), parts.end(), then.begin(), then.end(), [&](PartId id, const PlacedPart& p) {
-      return p.part == id && p.pose == canonical(disassembly_.pose(id));
-    });
-  };
-  if (!stand(removal.parts, question.moving) || !stand(rest, question.fixed))
+  const std::vector<PlacedPart>& moving = removal.attempt->attempt.moving;
+  const bool same = std::equal(removal.parts.begin(), removal.parts.end(), moving.begin(), moving.end(),
+                               [&](PartId id, const PlacedPart& p) { return p.part == id && p.pose == poses_[id]; });
+  if (!same || !oracle_.were_fixed(*removal.attempt, rest, poses_))
     throw std::logic_error("a removal whose path was found for other parts or other places");
 }
 

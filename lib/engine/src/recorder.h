@@ -16,7 +16,7 @@ namespace dismantle {
 class Recorder final : public SequenceObserver {
  public:
   /// All references must outlive this.
-  Recorder(const Assembly& assembly, const Oracle& oracle, const PlanningSetup& setup, const RunOptions& options,
+  Recorder(const Assembly& assembly, Oracle& oracle, const PlanningSetup& setup, const RunOptions& options,
            const StepObserver& on_step, const RunContext& context);
 
   /// Appends one step. If the last step was a placement of the same parts, extends it instead: the plan shows one
@@ -37,16 +37,22 @@ class Recorder final : public SequenceObserver {
   void add(const Removal& removal, const DisassemblyStep* earlier);
   DisassemblyStep to_step(const Removal& removal) const;
   void check_question(const Removal& removal) const;
+  /// Steps are added to the disassembly, and taken back, by these only.
+  void append(DisassemblyStep step);
+  void pop();
+  void update(const std::vector<PartId>& moved);
   bool continues_last(const DisassemblyStep& step) const;
 
   const Assembly& assembly_;
-  const Oracle& oracle_;
+  Oracle& oracle_;
   const PlanningSetup& setup_;
   const Constraints& constraints_;
   const StepObserver& on_step_;
   const RunContext& context_;
   Disassembly disassembly_;
-  std::vector<std::optional<DisassemblyStep>> before_;  ///< by removal that can be taken back: the step that it replaced
+  std::vector<Pose> poses_;  ///< by part, as they stand in questions: each removal is compared with those of its group
+  std::vector<std::optional<DisassemblyStep>>
+      before_;  ///< by removal that can be taken back: the step that it replaced
   std::string problem_;
 };
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
@@ -100,6 +101,7 @@ TEST(Judgement, AWholePlanHasTheOperationsOfItsSteps) {
     StepCheckTraits traits() const noexcept override { return {.remembers_shape = true, .judges_plan = true}; }
     StepVerdict judge(const StepQuestion& q, const RunContext&) const override {
       steps.push_back(seen(q));
+      EXPECT_TRUE(std::ranges::is_sorted(ids(q.present)));
       return {};
     }
     StepVerdict judge_plan(std::span<const StepQuestion> all, const RunContext&) const override {
@@ -143,6 +145,13 @@ TEST(Judgement, AWholePlanHasTheOperationsOfItsSteps) {
     judge(plan, done, assembly, {{{"watch", watch, 1, false, {}}}}, RunContext{});
     ASSERT_EQ(watch->steps.size(), done.steps().size());
     EXPECT_EQ(watch->steps, watch->whole) << trial;
+    for (std::size_t k = 0; k < done.steps().size(); ++k) {
+      const Operation alone = operation_of(done, k, assembly, Objective{}.up);
+      const Seen expected = Watch::seen(alone.question()), &got = watch->steps[done.steps().size() - 1 - k];
+      EXPECT_EQ(got.moving, expected.moving);
+      EXPECT_EQ(got.present, expected.present);
+      EXPECT_EQ(got.direction, expected.direction);
+    }
   }
 }
 
