@@ -29,6 +29,15 @@ std::vector<std::size_t> IdenticalParts::Shapes::of(std::span<const PlacedPart> 
   return all;
 }
 
+bool IdenticalParts::Shapes::includes(std::span<const PlacedPart> parts, std::vector<std::size_t> wanted) const {
+  for (const PlacedPart& p : parts) {
+    if (wanted.empty()) return true;
+    if (const auto one = std::find(wanted.begin(), wanted.end(), first.at(p.part)); one != wanted.end())
+      wanted.erase(one);
+  }
+  return wanted.empty();
+}
+
 Eigen::Vector3d IdenticalParts::Shapes::seen_from(std::span<const PlacedPart> parts,
                                                   const Eigen::Vector3d& direction) const {
   const auto least = std::min_element(parts.begin(), parts.end(), [&](const PlacedPart& a, const PlacedPart& b) {
@@ -56,7 +65,7 @@ StepVerdict IdenticalParts::judge(const StepQuestion& question, const RunContext
   StepVerdict verdict;
   if (question.previous == nullptr || question.moving.empty()) return verdict;
   const std::shared_ptr<const Shapes> shapes = shapes_of(question.assembly);
-  const std::vector<std::size_t> now = shapes->of(question.moving), present = shapes->of(question.present);
+  const std::vector<std::size_t> now = shapes->of(question.moving);
   const std::string& name = question.assembly.parts[question.moving.front().part].name;
   if (now == shapes->of(question.previous->moving)) {
     const Eigen::Vector3d &direction = question.direction, &before = question.previous->direction;
@@ -69,7 +78,7 @@ StepVerdict IdenticalParts::judge(const StepQuestion& question, const RunContext
     verdict.reason = fmt::format("'{}' goes in along another direction than the equal part before it", name);
     return verdict;
   }
-  if (!std::includes(present.begin(), present.end(), now.begin(), now.end())) return verdict;
+  if (!shapes->includes(question.present, now)) return verdict;
   verdict.cost = 1;
   verdict.reason =
       question.moving.size() == 1

@@ -39,6 +39,8 @@ class IdenticalParts final : public StepCheck {
     std::vector<Pose> pose;  // takes the first part of the shape to this part
     /// Of these parts, sorted.
     std::vector<std::size_t> of(std::span<const PlacedPart> parts) const;
+    /// Is each of `wanted` the shape of a part of its own?
+    bool includes(std::span<const PlacedPart> parts, std::vector<std::size_t> wanted) const;
     /// The direction as seen from the part whose shape comes first.
     Eigen::Vector3d seen_from(std::span<const PlacedPart> parts, const Eigen::Vector3d& direction) const;
   };
