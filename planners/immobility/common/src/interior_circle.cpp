@@ -19,6 +19,13 @@ double depth_at(const Solid& solid, const InteriorCircle& circle, double angle) 
   return escape_at(solid.frame.inverse() * point_on(circle, angle), solid).depth;
 }
 
+/// depth_at() > depth, without the distance of points that are outside, and of what is farther than it matters.
+bool is_deeper(const Solid& solid, const InteriorCircle& circle, double angle, double depth) {
+  const Vec3 p = solid.frame.inverse() * point_on(circle, angle);
+  if (!(depth > geometry::kRounding * p.cwiseAbs().maxCoeff())) return escape_at(p, solid).depth > depth;
+  return solid.box.contains(p) && solid.bvh.inside(p) && solid.bvh.closest(p, 2 * depth).distance > depth;
+}
+
 /// True if the whole arc between two angles is deeper than `depth`.
 bool arc_is_deep(const Solid& solid, const InteriorCircle& circle, double depth, double from, double to) {
   const double middle = 0.5 * (from + to), half_arc = 0.5 * (to - from) * circle.radius;
@@ -41,7 +48,7 @@ bool is_deep(const Solid& solid, const InteriorCircle& circle, double depth) {
 
 bool samples_are_deep(const Solid& solid, const InteriorCircle& circle, double depth) {
   for (int k = 0; k < 24; ++k)  // in steps of 5/24, so that a point outside is found early
-    if (!(depth_at(solid, circle, 2 * pi * 5 * k / 24) > depth)) return false;
+    if (!is_deeper(solid, circle, 2 * pi * 5 * k / 24, depth)) return false;
   return true;
 }
 
