@@ -62,14 +62,40 @@ bool in_face(const Polyhedron& body, const Polyhedron::Face& face, const Vec3& p
   return inside;
 }
 
-/// Lowers `best` to the first distance along d at which a corner meets a face of `target` from outside.
+/// Lowers `best` to the first distance along d at which a corner meets a face of `target` from outside. Seen along d, a
+/// corner that meets a face is in the box of its boundary, so most pairs are not looked at.
 void corners_to_faces(const std::vector<Vec3>& corners, const Vec3& offset, const Vec3& d, const Polyhedron& target,
                       double tolerance, double& best) {
+  const Vec3 u = d.unitOrthogonal(), v = d.cross(u);
+  struct Flat {
+    double x, y;
+    const Vec3* corner;
+  };
+  std::vector<Flat> flat;
+  flat.reserve(corners.size());
+  double size = 0;
+  for (const Vec3& c : corners) {
+    const Vec3 p = c + offset;
+    flat.push_back({p.dot(u), p.dot(v), &c});
+    size = std::max(size, p.cwiseAbs().sum());
+  }
+  std::sort(flat.begin(), flat.end(), [](const Flat& p, const Flat& q) { return p.x < q.x; });
   for (const auto& face : target.faces()) {
     const double rate = face.normal.dot(d);
     if (rate > -kRounding) continue;
-    for (const Vec3& c : corners) {
-      const Vec3 p = c + offset;
+    double x0 = Limits::infinity(), x1 = -x0, y0 = x0, y1 = x1, off = 0;  // `off`: of the boundary from the plane
+    for (const std::size_t e : face.edges)
+      for (const Vec3* p : {&target.edges()[e].a, &target.edges()[e].b}) {
+        const double x = p->dot(u), y = p->dot(v);
+        x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
+        off = std::max(off, std::abs(face.normal.dot(*p) - face.offset));
+        size = std::max(size, p->cwiseAbs().sum());
+      }
+    const double margin = tolerance + 2 * off + kRounding * size;
+    const auto left = [&](const Flat& c) { return c.x < x0 - margin; };
+    for (auto c = std::partition_point(flat.begin(), flat.end(), left); c != flat.end() && c->x <= x1 + margin; ++c) {
+      if (c->y < y0 - margin || c->y > y1 + margin) continue;
+      const Vec3 p = *c->corner + offset;
       const double t = (face.offset - face.normal.dot(p)) / rate;
       if (t < 0 || t >= best) continue;
       if (in_face(target, face, p + t * d, tolerance)) best = t;
@@ -82,27 +108,34 @@ void edges_to_edges(const Polyhedron& a, const Polyhedron& b, const Vec3& offset
   // Two edges meet where their projections along d cross. Their depths at the crossing give the distance until then.
   const Vec3 u = d.unitOrthogonal(), v = d.cross(u);
   struct Flat {
-    double x, y, z, dx, dy, dz, length;
+    double x, y, z, dx, dy, dz, length, x0, x1, y0, y1;
   };
   const auto flatten = [&](const Polyhedron& body, const Vec3& by) {
     std::vector<Flat> out;
     out.reserve(body.edges().size());
     for (const auto& e : body.edges()) {
       const Vec3 p = e.a + by, w = e.b - e.a;
-      const double dx = w.dot(u), dy = w.dot(v);
+      const double dx = w.dot(u), dy = w.dot(v), x = p.dot(u), y = p.dot(v);
       const double length = std::hypot(dx, dy);
-      if (length > kRounding) out.push_back({p.dot(u), p.dot(v), p.dot(d), dx, dy, w.dot(d), length});
+      if (length > kRounding)
+        out.push_back({x, y, p.dot(d), dx, dy, w.dot(d), length, std::min(x, x + dx), std::max(x, x + dx),
+                       std::min(y, y + dy), std::max(y, y + dy)});
     }
     return out;
   };
-  const std::vector<Flat> ours = flatten(a, offset), theirs = flatten(b, Vec3::Zero());
+  const std::vector<Flat> ours = flatten(a, offset);
+  std::vector<Flat> theirs = flatten(b, Vec3::Zero());
+  std::sort(theirs.begin(), theirs.end(), [](const Flat& p, const Flat& q) { return p.x0 < q.x0; });
+  double widest = 0;
+  for (const Flat& f : theirs) widest = std::max(widest, f.x1 - f.x0);
   for (const Flat& e : ours) {
-    const double ex0 = std::min(e.x, e.x + e.dx) - tolerance, ex1 = std::max(e.x, e.x + e.dx) + tolerance;
-    const double ey0 = std::min(e.y, e.y + e.dy) - tolerance, ey1 = std::max(e.y, e.y + e.dy) + tolerance;
-    for (const Flat& f : theirs) {
-      if (std::min(f.x, f.x + f.dx) > ex1 || std::max(f.x, f.x + f.dx) < ex0 || std::min(f.y, f.y + f.dy) > ey1 ||
-          std::max(f.y, f.y + f.dy) < ey0)
-        continue;
+    const double ex0 = e.x0 - tolerance, ex1 = e.x1 + tolerance, ey0 = e.y0 - tolerance, ey1 = e.y1 + tolerance;
+    const double first = ex0 - widest - kRounding * (std::abs(ex0) + widest);
+    const auto left = [&](const Flat& f) { return f.x0 < first; };
+    for (auto at = std::partition_point(theirs.begin(), theirs.end(), left); at != theirs.end() && at->x0 <= ex1;
+         ++at) {
+      const Flat& f = *at;
+      if (f.x1 < ex0 || f.y0 > ey1 || f.y1 < ey0) continue;
       const double det = cross2(e.dx, e.dy, f.dx, f.dy);
       if (std::abs(det) < kRounding * e.length * f.length) continue;  // parallel: corners_to_faces() covers these
       const double s = cross2(f.x - e.x, f.y - e.y, f.dx, f.dy) / det;

@@ -335,6 +335,7 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
                                                     const RunContext& context) {
   Arrangements arrangements(*this, places, to_contact);
   Answer answer;
+  answer.moves = places.size() * directions_.size();
   for (std::size_t current = 0; current < arrangements.size(); ++current) {
     answer.waiting = arrangements.size() - current;
     if (context.should_stop()) {

@@ -44,6 +44,10 @@ class TranslationSearch {
     std::vector<Translation> translations;  ///< the last has infinite length
     std::size_t states = 0;                 ///< visited
     std::size_t waiting = 0;                ///< found and not visited
+    std::size_t moves = 0;                  ///< of one part along one direction, from any state: parts times directions
+    /// The work was used up before as many states were visited as may follow the first one: the parts are so detailed
+    /// that a few times as much would not reach far, either.
+    bool hopeless() const { return end == End::too_long && states <= moves; }
   };
   /// Visits up to `most_states` states (else `limit`) and compares up to `most_work` pairs of edges or faces (else
   /// `too_long`). Measured lengths are cached, so a later search with more work resumes. `unsuited`: more than 64

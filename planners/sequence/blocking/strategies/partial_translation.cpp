@@ -119,7 +119,10 @@ TranslationSearch::Answer PartialTranslation::find(GroupState& group) {
   if (progress.off_grid && !group.is_pair()) {
     const std::size_t on_grid = found.states;
     found = translations_.search(places, most_states, work, state_.context());
-    hopeless = found.end == End::too_long && found.states <= 1;  // not one arrangement was compared
+    state_.context().log(LogLevel::debug, "translations between flush places: " + std::to_string(found.states) +
+                                              " arrangements of " + std::to_string(places.size()) + " parts, " +
+                                              std::to_string(found.waiting) + " waiting");
+    hopeless = found.hopeless();
     found.states += on_grid;
   }
   group.translations_limited = found.end == End::too_long && !hopeless && !snaps_.holds_all(group);

@@ -134,6 +134,33 @@ TEST(TranslationSearch, EndsInTheMiddleOfAnArrangement) {
   EXPECT_EQ(whole.end, TranslationSearch::End::found) << "what was measured before is no hindrance";
 }
 
+/// Cubes in a closed box: a search that ends among the first moves is hopeless, one that got farther is not.
+TEST(TranslationSearch, IsHopelessIfItEndsAmongTheFirstMoves) {
+  Assembly assembly = fake::closed_box();
+  assembly.parts.resize(4, assembly.parts.back());
+  for (PartId id = 1; id < 4; ++id) {
+    const double at = -1.7 + 1.1 * (id - 1.0);
+    const Vec3 lo(at, at + 0.1, at - 0.05 * id);
+    Part& cube = assembly.parts[id];
+    cube.id = id;
+    cube.mesh = cube.surface = std::make_shared<const Mesh>(fake::boxes({{lo, lo + Vec3::Ones()}}));
+  }
+  Places places;
+  for (const Part& part : assembly.parts) places[part.id] = Vec3::Zero();
+  bool any_hopeless = false, any_farther = false;
+  for (double work = 1e3; work < 1e7; work *= 2) {
+    TranslationSearch search(assembly, kDefaultTolerance, PartialTranslationParameters{});
+    const TranslationSearch::Answer found = search.search(places, 1'000'000, work, RunContext{});
+    EXPECT_NE(found.end, TranslationSearch::End::found);
+    EXPECT_EQ(found.moves, 4u * 6);
+    EXPECT_FALSE(any_farther && found.hopeless()) << work;
+    any_hopeless = any_hopeless || found.hopeless();
+    any_farther = any_farther || !found.hopeless();
+  }
+  EXPECT_TRUE(any_hopeless);
+  EXPECT_TRUE(any_farther);
+}
+
 TEST(Directions, ComeInOppositePairsAndHoldTheNormalsOfFlatFaces) {
   const Assembly assembly = fake::tube_with_blocks(3);
   const Directions directions = directions_of(assembly);
