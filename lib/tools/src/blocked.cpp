@@ -104,7 +104,6 @@ class Search {
   struct Open {
     std::vector<std::uint32_t> pieces, nodes;
   };
-  enum class Seen { clear, undecided, pierced };
 
   void descend(double lo, double hi, int halvings, const Open& open) {
     if (known(lo, hi)) return;
@@ -155,9 +154,7 @@ class Search {
     const double off = piece.directions.middle - outline_.directions.middle - middle;
     const double least = std::abs(off - kTurn * std::round(off / kTurn));
     if (least > piece.directions.half + outline_.directions.half + half) return Seen::clear;
-    const Piece at = turned(piece, back);
-    if (outline_.clear(at, margin)) return Seen::clear;
-    return outline_.pierced(at, margin) ? Seen::pierced : Seen::undecided;
+    return outline_.look(turned(piece, back), margin);
   }
   bool may_meet(const Surroundings::Bound& b, const Eigen::Matrix2d& back, double half) const {
     if (!ring_.may_meet(b)) return false;

@@ -12,38 +12,29 @@ using Vec2 = Eigen::Vector2d;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-double point_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
+double squared_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
   const Vec2 ab = b - a;
   const double length2 = ab.squaredNorm(), t = length2 > 0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0;
-  return (p - a - t * ab).norm();
+  return (p - a - t * ab).squaredNorm();
 }
 
-bool segments_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  return cross(b - a, c - a) * cross(b - a, d - a) < 0 && cross(d - c, a - c) * cross(d - c, b - c) < 0;
-}
+double point_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) { return std::sqrt(squared_to_segment(p, a, b)); }
 
-bool contains(const Piece& piece, const Vec2& p) {
-  bool left = true, right = true;
-  double area = 0;
-  for (std::size_t i = 0; i < piece.count; ++i) {
-    const Vec2 &a = piece.corner[i], &b = piece.corner[(i + 1) % piece.count];
-    const double side = cross(b - a, p - a);
-    left &= side >= 0;
-    right &= side <= 0;
-    area += cross(a, b);
-  }
-  return area != 0 && (left || right);
-}
-
+/// Of a convex polygon and a segment; 0 where they meet.
 double distance(const Piece& piece, const Vec2& a, const Vec2& b) {
-  if (contains(piece, a)) return 0;
-  double least = std::numeric_limits<double>::infinity();
+  const Vec2 ab = b - a;
+  bool left = true, right = true;
+  double area = 0, least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < piece.count; ++i) {
-    const Vec2 &c = piece.corner[i], &d = piece.corner[(i + 1) % piece.count];
-    if (segments_cross(a, b, c, d)) return 0;
-    least = std::min({least, point_to_segment(a, c, d), point_to_segment(b, c, d), point_to_segment(c, a, b)});
+    const Vec2 &c = piece.corner[i], &d = piece.corner[(i + 1) % piece.count], edge = d - c;
+    const double side_a = cross(edge, a - c), side_b = cross(edge, b - c);
+    if (side_a * side_b < 0 && cross(ab, c - a) * cross(ab, d - a) < 0) return 0;
+    left &= side_a >= 0;
+    right &= side_a <= 0;
+    area += cross(c, d);
+    least = std::min({least, squared_to_segment(a, c, d), squared_to_segment(b, c, d), squared_to_segment(c, a, b)});
   }
-  return least;
+  return area != 0 && (left || right) ? 0 : std::sqrt(least);  // the segment begins in the polygon
 }
 
 /// Separating axes of an upright rectangle and a convex polygon. Touching is not meeting.
@@ -148,14 +139,14 @@ double Outline::distance_to(const Vec2& p) const {
   return (volume->from - p).cwiseMax(p - volume->to).cwiseMax(0).norm();
 }
 
-bool Outline::clear(const Piece& at, double margin) const {
-  if (volume->form == Form::obround) return distance(at, volume->from, volume->to) > volume->radius + margin;
-  return !meet(at, volume->from.array() - margin, volume->to.array() + margin);
-}
-
-bool Outline::pierced(const Piece& at, double margin) const {
-  if (volume->form == Form::obround) return distance(at, volume->from, volume->to) < volume->radius - margin;
-  return meet(at, volume->from.array() + margin, volume->to.array() - margin);
+Seen Outline::look(const Piece& at, double margin) const {
+  if (volume->form == Form::obround) {
+    const double off = distance(at, volume->from, volume->to);
+    if (off > volume->radius + margin) return Seen::clear;
+    return off < volume->radius - margin ? Seen::pierced : Seen::undecided;
+  }
+  if (!meet(at, volume->from.array() - margin, volume->to.array() + margin)) return Seen::clear;
+  return meet(at, volume->from.array() + margin, volume->to.array() - margin) ? Seen::pierced : Seen::undecided;
 }
 
 }  // namespace dismantle::tools

@@ -28,6 +28,10 @@ std::optional<Piece> piece_of(const std::array<Eigen::Vector3d, 3>& triangle, do
 /// The piece turned about the axis; its directions are left.
 Piece turned(const Piece& piece, const Eigen::Matrix2d& turn);
 
+/// What is proved of a piece and an outline: it is farther than a margin from it, or it has a point inside that is
+/// farther than the margin from the edge.
+enum class Seen { clear, undecided, pierced };
+
 /// A box or an obround seen along the axis.
 struct Outline {
   const Volume* volume;
@@ -38,10 +42,7 @@ struct Outline {
   explicit Outline(const Volume& v);
   /// Of a point from the outline; 0 inside.
   double distance_to(const Eigen::Vector2d& p) const;
-  /// True proves that the piece is farther than `margin` from the outline.
-  bool clear(const Piece& piece, double margin) const;
-  /// True proves that the piece has a point inside the outline farther than `margin` from its edge.
-  bool pierced(const Piece& piece, double margin) const;
+  Seen look(const Piece& piece, double margin) const;
 };
 
 }  // namespace dismantle::tools
