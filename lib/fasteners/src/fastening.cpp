@@ -234,7 +234,7 @@ class Screw {
       if (length_ < std::min(one, two) + 0.75 * nut.height) out_.faults.push_back({FasteningProblem::too_short, other});
       return;
     }
-    if (out_.nut || !known_) return;
+    if (kind(other) == Kind::nut || !known_) return;
     const bool ends_inside = length_ < thread_->to - 0.5 * step_;
     if (!out_.clamps.empty() && ends_inside && length_ - thread_->from < 0.5 * diameter_)
       out_.faults.push_back({FasteningProblem::too_short, other});

@@ -158,12 +158,13 @@ std::optional<Shape> nut_of(const Body& body) {
   if (thread != nullptr) s.size = thread->name;
   s.reason = fmt::format("{} of {} mm with a hole of {} mm{}", square ? "square" : "hexagon",
                          number(rounded(flats, 0.01)), number(rounded(hole, 0.01)), s.threaded ? ", thread" : "");
+  if (flats > 4 * hole) return std::nullopt;  // a block with a hole
   if (high > 2.2 * diameter) {
     s.kind = Kind::standoff;
     s.confidence = 0.8;
     return s;
   }
-  if (flats > 4 * hole || flats < 1.25 * hole || (square && thread == nullptr)) return std::nullopt;
+  if (flats < 1.25 * hole || (square && thread == nullptr)) return std::nullopt;
   s.kind = Kind::nut;
   s.confidence = thread != nullptr || s.threaded ? 0.95 : 0.6;
   if (thread == nullptr) s.reason += "; no size of the tables fits";

@@ -213,6 +213,12 @@ TEST(Fastening, FindsWhatIsWrong) {
             }),
             Texts{"'screw' (M3x10) is too short for the thread of 'housing'"});
   EXPECT_EQ(faults([](Stack& s) {
+              s.add_screw("screw", 10);
+              s.add_plate("lid", 3.4, -9, 0);
+              s.add_nut("spacer bolt", -9, 5.5, 2.5, 11);
+            }),
+            Texts{"'screw' (M3x10) is too short for the thread of 'spacer bolt'"});
+  EXPECT_EQ(faults([](Stack& s) {
               s.add_screw("screw", 8);
               s.add_plate("lid", 3.4, -9, 0);
               s.add_block("housing", 2.5, -9, -20);

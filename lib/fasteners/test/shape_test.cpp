@@ -71,6 +71,7 @@ std::vector<Made> other_parts() {
   out.push_back(
       {"shaft", turned_solid({{0, circle(0)}, {0, circle(8)}, {290, circle(8)}, {290, circle(0)}}), Kind::shaft, ""});
   out.push_back({"stand-off", nut(polygon(6, 5.5), 2.5, 20), Kind::standoff, "M3"});
+  out.push_back({"block", nut(polygon(4, 40), 5, 25), Kind::other, ""});
   // A knob of no size in a table, without a drive: a turned part, no screw.
   out.push_back({"knob", screw({7.3, 10, 23, 17}), Kind::other, ""});
   out.push_back({"plate", turned_solid({{0, polygon(4, 80)}, {3, polygon(4, 80)}, {3, circle(0)}, {0, circle(0)}}, 144),
