@@ -12,16 +12,6 @@ namespace {
 using namespace test;
 using nlohmann::json;
 
-/// Calls law(assembly, down) for the scene at random poses and in all units.
-template <class Law>
-void everywhere(const Scene& scene, const Law& law) {
-  Rng rng(11);
-  for (const char* unit : {"mm", "m", "inch"}) {
-    const Pose pose = shapes::random_pose(rng, 30);
-    law(scene.assembly(pose, rng.uniform(0.01, 2), unit), Vector3d(pose.q * -Vector3d::UnitZ()));
-  }
-}
-
 const json none = json::array();
 
 // Only the short arm of a key fits between the screw and the roof; under a lower roof, nothing does.

@@ -5,10 +5,12 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "dismantle/run_context.h"
 #include "dismantle/testing/shapes.h"
+#include "dismantle/testing/trials.h"
 #include "solids.h"
 #include "tool_access.h"
 
@@ -75,6 +77,22 @@ inline StepVerdict judge(const ToolAccess& check, const Assembly& assembly, cons
   StepQuestion question{assembly, in, there, direction};
   question.previous = previous;
   return check.judge(question, RunContext{});
+}
+
+/// Calls law(assembly, down), or law(assembly, down, pose), for the scene at random poses and scales in all units.
+template <class Law>
+void everywhere(const Scene& scene, const Law& law) {
+  Rng rng(11);
+  for (int trial = 0; trial < testing_support::trials(1, 10); ++trial)
+    for (const char* unit : {"mm", "m", "inch"}) {
+      const Pose pose = shapes::random_pose(rng, 30);
+      const Assembly assembly = scene.assembly(pose, rng.uniform(0.01, 2), unit);
+      const Vector3d down = pose.q * -Vector3d::UnitZ();
+      if constexpr (std::is_invocable_v<Law, const Assembly&, const Vector3d&, const Pose&>)
+        law(assembly, down, pose);
+      else
+        law(assembly, down);
+    }
 }
 
 inline nlohmann::json data_of(const StepVerdict& v, const std::string& kind) {

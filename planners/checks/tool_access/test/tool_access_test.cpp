@@ -18,14 +18,11 @@ using namespace test;
 
 // A screw in a well is for a long key; in a deeper well, for none: the wall is in the way. Whatever the pose and unit.
 TEST(ToolAccess, AScrewInAWell) {
-  Rng rng(3);
   Scene scene;
   const PartId screw_id = scene.add("screw", screw(), {0, 0, -10}), plate_id = scene.add("plate", plate());
   const PartId low = scene.add("low", wall(4, 40)), high = scene.add("high", wall(4, 330));
-  for (const char* unit : {"mm", "m", "inch"}) {
-    const Pose pose = shapes::random_pose(rng, 30);
-    const Assembly assembly = scene.assembly(pose, rng.uniform(0.01, 2), unit);
-    const Vector3d down = pose.q * -Vector3d::UnitZ();
+  everywhere(scene, [&](const Assembly& assembly, const Vector3d& down, const Pose& pose) {
+    const std::string unit = assembly.unit;
     const ToolAccess check(ToolAccessParameters{.only = "hex_key_2.5, hex_key_long_2.5"});
     StepVerdict v = judge(check, assembly, {screw_id}, {plate_id}, down);
     EXPECT_EQ(v.cost, 0);
@@ -36,7 +33,7 @@ TEST(ToolAccess, AScrewInAWell) {
     const Vector3d from(data["from"][0], data["from"][1], data["from"][2]);
     EXPECT_LT((from + down).norm(), 1e-3);
     const Vector3d at(data["at"][0], data["at"][1], data["at"][2]);
-    const double mm = std::string(unit) == "m" ? 1000 : std::string(unit) == "inch" ? 25.4 : 1;
+    const double mm = unit == "m" ? 1000 : unit == "inch" ? 25.4 : 1;
     EXPECT_LT((mm * at - pose * Vector3d(0, 0, 3)).norm(), 0.02);
     const Vector3d handle(data["handle"][0], data["handle"][1], data["handle"][2]);
     EXPECT_NEAR(handle.dot(from), 0, 1e-9);
@@ -60,7 +57,7 @@ TEST(ToolAccess, AScrewInAWell) {
     EXPECT_NE(v.notes[0].text.find("'high' is in the way"), std::string::npos) << v.notes[0].text;
     // What is not there yet is not in the way.
     EXPECT_EQ(judge(check, assembly, {screw_id}, {plate_id}, down).cost, 0);
-  }
+  });
 }
 
 TEST(ToolAccess, ScaledCopiesHaveTheToolOfTheirTrueSize) {
@@ -179,13 +176,14 @@ TEST(ToolAccess, ACirclipWithoutRoomForPliers) {
   const PartId ring = scene.add("circlip 16", circlip(7.6, 11, 1));
   const PartId shaft = scene.add("shaft", shapes::tube(0, 7.5, -40, 5, 48));
   const PartId bore = scene.add("bore", shapes::tube(13, 40, -40, 60, 48));
-  const Assembly assembly = scene.assembly();
-  StepVerdict v = judge(ToolAccess(), assembly, {ring}, {shaft}, -Vector3d::UnitZ());
-  EXPECT_EQ(v.cost, 0);
-  EXPECT_NE(std::string(data_of(v, "tool")["tool"]).find("pliers"), std::string::npos);
-  v = judge(ToolAccess(), assembly, {ring}, {shaft, bore}, -Vector3d::UnitZ());
-  EXPECT_EQ(v.cost, 1);
-  EXPECT_EQ(data_of(v, "blocked")["in_the_way"], nlohmann::json::array({"bore"}));
+  everywhere(scene, [&](const Assembly& assembly, const Vector3d& down) {
+    StepVerdict v = judge(ToolAccess(), assembly, {ring}, {shaft}, down);
+    EXPECT_EQ(v.cost, 0);
+    EXPECT_NE(std::string(data_of(v, "tool")["tool"]).find("pliers"), std::string::npos);
+    v = judge(ToolAccess(), assembly, {ring}, {shaft, bore}, down);
+    EXPECT_EQ(v.cost, 1);
+    EXPECT_EQ(data_of(v, "blocked")["in_the_way"], nlohmann::json::array({"bore"}));
+  });
 }
 
 TEST(ToolAccess, AChangeOfTheToolCosts) {
