@@ -289,7 +289,7 @@ void Oracle::recorded(const AttemptResult& answer) {
     std::vector<PlacedPart>& fixed = recorded_.front()->attempt.fixed;
     emptied_.emplace(recorded_.front(), digest_of(std::span<const PlacedPart>(fixed)));
     kept_ -= fixed.size();
-    fixed = {};
+    std::vector<PlacedPart>().swap(fixed);  // an assignment would keep the memory
     recorded_.pop_front();
   }
 }

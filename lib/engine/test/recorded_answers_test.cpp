@@ -44,6 +44,9 @@ TEST(RecordedAnswers, ListsOfFixedPartsDoNotAddUp) {
   EXPECT_EQ(r.recorder.disassembly().steps().size(), kParts - 1);
   EXPECT_LE(r.most_kept, kMost);
   EXPECT_TRUE(r.removals.front().attempt->attempt.fixed.empty());
+  std::size_t memory = 0;
+  for (const Removal& removal : r.removals) memory += removal.attempt->attempt.fixed.capacity();
+  EXPECT_LE(memory, kMost);
   EXPECT_EQ(r.removals.back().attempt->attempt.fixed.size(), 1u);
   for (const Removal& removal : r.removals) {  // all else is there
     EXPECT_EQ(removal.attempt->attempt.moving.size(), 1u);
