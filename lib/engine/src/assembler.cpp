@@ -119,9 +119,8 @@ void Assembler::clear_insertions(Scenery& scenery, const RunContext& context) co
   for (std::size_t i = 0; i < scenery.steps.size(); ++i) {
     if (context.should_stop()) return;  // no more transfers are searched for
     const std::size_t from = scenery.done.left_group(i);
-    std::vector<PlacedPart> others = places.others(scenery, i);
     // The parts that it passed on its way out need no check: the motion is the same.
-    std::erase_if(others, [&](const PlacedPart& p) { return scenery.done.group(p.part, i + 1) == from; });
+    const std::vector<PlacedPart> others = places.others(scenery, i, false);
     const MotionCheck check = verifier_.check_motion(scenery.steps[i].parts, others, scenery.insertion(i), context);
     if (check.interrupted) return;
     if (check.valid) continue;

@@ -46,8 +46,8 @@ struct Assembler::Scenery {
 class Assembler::PartPlaces {
  public:
   /// All parts but those of step `i`. Groups that are not in the layout are left out, except the one that the step adds
-  /// to.
-  std::vector<PlacedPart> others(const Scenery& scenery, std::size_t i) {
+  /// to. `of_its_group` false: without that one, too.
+  std::vector<PlacedPart> others(const Scenery& scenery, std::size_t i, bool of_its_group = true) {
     const Disassembly& done = scenery.done;
     if (stands_.size() != done.parts() || changes_ != scenery.changes || i + 1 < after_) {
       stands_.assign(done.parts(), {});
@@ -62,7 +62,7 @@ class Assembler::PartPlaces {
     std::vector<PlacedPart> all;
     all.reserve(done.parts());
     for (const Stand& s : stands_)
-      if (s.group != Disassembly::kAbsent && (s.shown || s.group == left) &&
+      if (s.group != Disassembly::kAbsent && (s.group == left ? of_its_group : s.shown) &&
           !contains(scenery.steps[i].parts, s.at.part))
         all.push_back(s.at);
     return all;
