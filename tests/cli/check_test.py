@@ -41,6 +41,11 @@ class Check(CliTest):
         for command in (["check", "loose"], ["plan", "loose", "-o", "out"]):
             self.run_program(*command, "-q", status=1)
 
+    def test_contacts_are_in_the_words_of_a_workshop(self):
+        done = self.run_program("check", "parts", status=1)
+        self.assertIn("pairs of parts: 1 touching, 1 with an overlap of one depth (press fits, threads)", done.stdout)
+        self.assertNotIn("kissing", done.stdout)
+
     def test_contacts_have_a_class(self):
         done = self.run_program("check", "parts", "--format", "json", "-q", status=1)
         result = json.loads(done.stdout.splitlines()[-1])

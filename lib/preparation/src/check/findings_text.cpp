@@ -51,13 +51,32 @@ std::string_view to_string(Severity severity) {
   return "unknown";
 }
 
+/// A class of contact in the words of a workshop.
+static const char* contact_words(ContactClass contact) {
+  switch (contact) {
+    case ContactClass::clearance:
+      return "with clearance";
+    case ContactClass::kissing:
+      return "touching";
+    case ContactClass::uniform_interference:
+      return "with an overlap of one depth (press fits, threads)";
+    case ContactClass::local_interference:
+      return "overlapping in a small place";
+    case ContactClass::duplicate:
+      return "twice the same";
+    case ContactClass::inside:
+      return "one inside the other";
+  }
+  return "unknown";
+}
+
 /// How many pairs there are of each class; empty when no two parts are near each other.
 static std::string contacts_text(const AssemblyCheck& check) {
   std::map<ContactClass, std::size_t> counts;
   for (const CheckedContact& c : check.contacts) ++counts[c.place.contact];
   std::string out;
   for (const auto& [contact, count] : counts)
-    out += fmt::format("{}{} {}", out.empty() ? "contacts: " : ", ", count, to_string(contact));
+    out += fmt::format("{}{} {}", out.empty() ? "pairs of parts: " : ", ", count, contact_words(contact));
   return out.empty() ? out : out + "\n";
 }
 
