@@ -7,21 +7,25 @@
 #include <string_view>
 #include <utility>
 
+#include "dismantle/plan_io/bill_items.h"
 #include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/text_columns.h"
 
 namespace dismantle {
 namespace {
 
-/// "bolt" for "bolt_1", "bolt_2"; the first name when the common beginning is too short.
+/// "bolt_M10" for "bolt_M10_1", "bolt_M10_12": without a number that was cut, and what joins it. The first name when
+/// the common beginning is too short.
 std::string common_name(const std::vector<std::string>& names) {
   std::string stem = names.front();
   for (const std::string& name : names)
     stem.resize(static_cast<std::size_t>(std::ranges::mismatch(stem, name).in1 - stem.begin()));
   if (names.size() == 1) return stem;
-  while (!stem.empty() && (std::isdigit(static_cast<unsigned char>(stem.back())) ||
-                           std::string_view(" _-.#:(").find(stem.back()) != std::string_view::npos))
-    stem.pop_back();
+  const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  const bool cut = std::ranges::any_of(
+      names, [&](const std::string& name) { return name.size() > stem.size() && digit(name[stem.size()]); });
+  while (cut && !stem.empty() && digit(stem.back())) stem.pop_back();
+  while (!stem.empty() && std::string_view(" _-.#:(").find(stem.back()) != std::string_view::npos) stem.pop_back();
   while (!stem.empty() && (static_cast<unsigned char>(stem.back()) & 0x80) != 0) stem.pop_back();  // cut character
   return stem.size() >= 3 ? stem : names.front();
 }
@@ -41,10 +45,11 @@ class ItemFinder {
       content_.base = fmt::format("{} that stay together are not listed: {}", text::counted(rest.size(), "part"),
                                   listed_names(rest));
     find_products(listed_here);
+    const std::vector<std::size_t> firsts = bill_items(plan_.assembly, assembly_, shapes);
     std::map<std::size_t, std::size_t> item_of_shape;
     for (std::size_t i = 0; i < assembly_.parts.size(); ++i) {
       if (!listed_here[i]) continue;
-      const auto [it, fresh] = item_of_shape.try_emplace(shapes[i].original, content_.items.size());
+      const auto [it, fresh] = item_of_shape.try_emplace(firsts[i], content_.items.size());
       if (fresh) add_item({{i, Pose{}}});
       BookItem& item = content_.items[it->second];
       item.names.push_back(assembly_.parts[i].name);

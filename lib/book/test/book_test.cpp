@@ -245,6 +245,32 @@ TEST(Book, TheBillOfMaterialsHasWhatTheBookHandles) {
   EXPECT_NE(html.find("<dd>2, 2 shapes</dd>"), std::string::npos);
 }
 
+// A number that tells parts apart is no part of their common name; the size of a thread is.
+TEST(Book, ItemsKeepWhatTheirNamesHaveInCommon) {
+  const auto item_of = [](std::vector<std::string> names) {
+    Assembly assembly = row_of(2);
+    Plan plan = repair_plan(assembly);
+    for (std::size_t k = 0; k < 2; ++k) {
+      Part& part = assembly.parts[k];
+      plan.assembly.parts[k].name = plan.disassembly[k].moves[0].part = plan.disassembly[k].separates[0][0] =
+          part.name = names[k];
+      part.mesh = part.surface = assembly.parts[0].mesh;
+    }
+    plan.disassembly.pop_back();
+    plan.remaining = {names[1]};
+    plan.asked = {};
+    const std::string html = book_html(plan, assembly, {});
+    EXPECT_EQ(count_of(html, "<div class=\"item\">"), 1u);
+    const std::size_t at = html.find("<strong>") + 8;
+    return html.substr(at, html.find("</strong>") - at);
+  };
+  EXPECT_EQ(item_of({"bolt_M10_1", "bolt_M10_2"}), "bolt_M10");
+  EXPECT_EQ(item_of({"bolt_M10_1", "bolt_M10_12"}), "bolt_M10");
+  EXPECT_EQ(item_of({"bolt_9", "bolt_10"}), "bolt");
+  EXPECT_EQ(item_of({"6002", "6002#2"}), "6002");
+  EXPECT_EQ(item_of({"a1", "a2"}), "a1") << "too short";
+}
+
 TEST(Book, AProductThatIsKeptTogetherIsOneItem) {
   const Assembly assembly = row_of(4);
   Plan plan = repair_plan(assembly);

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 #include <set>
 #include <sstream>
 
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/exports.h"
+#include "dismantle/testing/shapes.h"
 #include "random_disassembly.h"
+#include "random_plan.h"
 
 namespace dismantle {
 namespace {
@@ -115,6 +118,56 @@ TEST(Lists, StepsAreThoseOfTheAssembly) {
   }
   plan.disassembly[0].layer = 0;
   for (const Row& row : rows_of(steps_csv(plan, input_frame(plan.assembly)))) EXPECT_EQ(row.at("waits_for"), "unknown");
+}
+
+/// A plan of these parts, all of one kind.
+std::size_t items_of(const std::vector<std::pair<std::string, Mesh>>& meshes, const std::string& kind) {
+  const Assembly assembly = assembly_of_meshes(meshes, 1, Eigen::Vector3d::Zero());
+  Plan plan;
+  plan.assembly = described(assembly);
+  for (PlanPart& part : plan.assembly.parts) part.kind = PartKind{kind, "M5", 0.9};
+  return rows_of(bom_csv(plan, assembly, {})).size();
+}
+
+/// A bar whose section turns, as a coarse thread; `hand`: 1 or -1.
+Mesh twisted(double hand, int rows, double length = 4) {
+  Mesh m;
+  const std::uint32_t n = 24;
+  for (int k = 0; k <= rows; ++k)
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const double a = 2 * std::numbers::pi * i / n, z = length * k / rows;
+      const double r = 1 + 0.2 * std::cos(a - hand * 2 * z);
+      m.vertices.emplace_back(r * std::cos(a), r * std::sin(a), z);
+    }
+  for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(rows); ++k)
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t a = k * n + i, b = k * n + (i + 1) % n;
+      m.triangles.push_back({a, b, b + n});
+      m.triangles.push_back({a, b + n, a + n});
+    }
+  const auto low = static_cast<std::uint32_t>(m.vertices.size()), top = static_cast<std::uint32_t>(rows) * n;
+  m.vertices.emplace_back(0, 0, 0);
+  m.vertices.emplace_back(0, 0, length);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    m.triangles.push_back({low, (i + 1) % n, i});
+    m.triangles.push_back({low + 1, top + i, top + (i + 1) % n});
+  }
+  return m;
+}
+
+// Law: standard parts that only their triangles tell apart are one item, wherever they stand; others are not.
+TEST(Lists, StandardPartsAreOneItemHoweverTheyAreMeshed) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Rng rng(seed);
+    const auto placed = [&](const Mesh& mesh) { return shapes::moved(mesh, shapes::random_pose(rng, 30)); };
+    const Mesh fine = placed(shapes::tube(2.5, 5, 0, 1, 48)), coarse = placed(shapes::tube(2.5, 5, 0, 1, 32, 1, 0.3));
+    EXPECT_EQ(items_of({{"a", fine}, {"b", coarse}}, "washer"), 1u);
+    EXPECT_EQ(items_of({{"a", fine}, {"b", coarse}}, "other"), 2u) << "it may be no standard part";
+    EXPECT_EQ(items_of({{"a", fine}, {"b", placed(shapes::tube(2.5, 5, 0, 1.01, 32))}}, "washer"), 2u) << "a shim";
+    EXPECT_EQ(items_of({{"a", fine}, {"b", placed(shapes::tube(2.5, 5.3, 0, 1, 32))}}, "washer"), 2u) << "wider";
+    EXPECT_EQ(items_of({{"a", placed(twisted(1, 40))}, {"b", placed(twisted(1, 50))}}, "screw"), 1u);
+    EXPECT_EQ(items_of({{"a", placed(twisted(1, 40))}, {"b", placed(twisted(-1, 50))}}, "screw"), 2u) << "left-handed";
+  }
 }
 
 }  // namespace

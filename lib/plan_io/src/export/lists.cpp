@@ -8,6 +8,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/geometry/congruent_parts.h"
+#include "dismantle/plan_io/bill_items.h"
 #include "dismantle/plan_io/csv_text.h"
 #include "dismantle/plan_io/exports.h"
 #include "dismantle/plan_io/motion_words.h"
@@ -78,11 +79,11 @@ class Items {
 
   void add_shapes(const std::vector<bool>& done) {
     std::map<std::size_t, std::size_t> item_of_shape;
-    const auto shapes = geometry::find_congruent(assembly_.parts);
+    const auto firsts = bill_items(plan_.assembly, assembly_, geometry::find_congruent(assembly_.parts));
     for (const PlanPart& part : plan_.assembly.parts) {
       const PartId id = id_of(part.name);
       if (done[id]) continue;
-      const auto [it, fresh] = item_of_shape.try_emplace(shapes[id].original, items_.size());
+      const auto [it, fresh] = item_of_shape.try_emplace(firsts[id], items_.size());
       if (fresh) items_.push_back({part.name, part.kind.value_or(PartKind{}), input_box(id)});
       Item& item = items_[it->second];
       ++item.count;
