@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
 
@@ -10,6 +11,7 @@
 #include "console.h"
 #include "dismantle/errors.h"
 #include "dismantle/orders/order.h"
+#include "dismantle/plan_io/order_words.h"
 #include "dismantle/plan_io/step_numbers.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/write_file.h"
@@ -160,7 +162,11 @@ int refused(const StepRefused& e, const PlanEdit& edit, const StepNumbers& steps
   const std::size_t index = edit.order[e.step()];
   console.text(fmt::format("refused: {} of the plan is not possible there: {}\nnothing was written\n",
                            steps.name(index), e.reason()));
-  console.result({{"status", "refused"}, {"reason", "refused"}, {"step", steps.number(index)}, {"message", e.reason()}, {"plan", nullptr}});
+  console.result({{"status", "refused"},
+                  {"reason", "refused"},
+                  {"step", steps.number(index)},
+                  {"message", e.reason()},
+                  {"plan", nullptr}});
   return kPartial;
 }
 
@@ -201,10 +207,20 @@ int edit_plan(const EditOptions& options) {
   const auto files = write_all(*result, *loaded.assembly, folder, console);
   console.end_progress();
   const int status = status_of(*result, context);
-  std::string text = summary_text(result->plan, options.console.verbose) + fmt::format("wrote to {}:", folder.string());
+  std::string text = summary_text(result->plan, options.console.verbose);
+  const std::string costs = cost_change_words(plan.objective, result->plan.objective);
+  if (!costs.empty()) text += costs + "\n";
+  text += fmt::format("wrote to {}:", folder.string());
   for (const auto& file : files) text += " " + file;
   console.text(text + "\n");
-  console.result(result_json(*result, status, folder / "plan.json"));
+  nlohmann::ordered_json json = result_json(*result, status, folder / "plan.json");
+  const auto cost = [](const Plan& p) {
+    return p.objective.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(p.objective.cost);
+  };
+  json["cost"] = cost(result->plan);
+  json["cost_before"] = cost(plan);
+  if (!costs.empty()) json["costs"] = costs;
+  console.result(json);
   return status;
 }
 

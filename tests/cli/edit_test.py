@@ -54,6 +54,12 @@ class Edit(CliTest):
         self.assertEqual(new, [old[2], old[0], old[1], old[3]])
         self.assertEqual([s["step"] for s in self.plan("new")["disassembly"]], list(range(1, len(old) + 1)))
         self.run_program("verify", "new/plan.json", status=0)
+        # What the other order costs is said, check by check.
+        done = self.edit("--move-step", str(b), "--before", str(a), "--disassembly")
+        told = json.loads(done.stdout)
+        self.assertEqual((told["cost_before"], told["cost"]), (self.plan()["objective"]["cost"], self.plan("new")["objective"]["cost"]))
+        self.assertIn(f"{told['costs']}\n", done.stderr)
+        self.assertIn(f"it costs {told['cost']:.3g} (before: {told['cost_before']:.3g})", told["costs"])
         # The same in numbers of the assembly: there the first of the two is the later one.
         first, second = len(old) + 1 - a, len(old) + 1 - b
         self.edit("--move-step", str(second), "--after", str(first))

@@ -13,6 +13,8 @@
 #include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/job_list.h"
 #include "dismantle/plan_io/motion_words.h"
+#include "dismantle/plan_io/order_words.h"
+#include "dismantle/plan_io/plan_account.h"
 #include "dismantle/plan_io/step_numbers.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/text_columns.h"
@@ -59,6 +61,7 @@ class ContentWriter {
     std::ranges::sort(content_.pages, {}, &BookPage::number);
     write_contents();
     write_job();
+    write_account();
     return std::move(content_);
   }
 
@@ -114,6 +117,18 @@ class ContentWriter {
     for (const JobTool& t : job.tools) content_.job.push_back({tool_words(t), 0, false});
   }
 
+  void write_account() {
+    const PlanAccount told = account_of(plan_);
+    const auto list = [&](const char* heading, const std::vector<std::string>& lines) {
+      if (!lines.empty()) content_.account.push_back({words_.label(heading), 0, true});
+      for (const std::string& line : lines) content_.account.push_back({words_.text(line), 0, false});
+    };
+    list("Why this order", cost_words(plan_, options_.disassembly));
+    list("Checked", told.checked);
+    list("Not checked", told.not_checked);
+    list("Assumed", told.assumed);
+  }
+
   void write_contents() {
     const std::size_t few = 6;  // pages of steps that are found by leafing
     if (content_.pages.size() < few) return;
@@ -125,6 +140,7 @@ class ContentWriter {
       for (const auto& [item, words] : page.moving) what += (what.empty() ? "" : ", ") + words;
       content_.contents.push_back({fmt::format("{}  {}: {}", page.number, page.verb, what), k, false});
     }
+    content_.contents.push_back({words_.label("What was checked"), content_.pages.size(), true});
   }
 
   void write_title() {
@@ -293,6 +309,8 @@ class ContentWriter {
         const char* kind = !held.empty() ? "hold" : note.kind.starts_with("tool_access") ? "tool" : "note";
         fact(page.facts, kind, words_.text(note.text));
       }
+    if (const std::string order = order_words(plan_, page.step->plan_step, options_.disassembly); !order.empty())
+      fact(page.facts, "order", words_.text(order));
     if (!step.contacts.empty()) fact(page.facts, "touches", text::joined(step.contacts));
   }
 

@@ -19,7 +19,7 @@ struct BookItem {
   std::string name;                 ///< common beginning of all names, or the first name, or the product
   std::vector<std::string> names;   ///< of the parts, or of the uses of the product
   std::vector<PlacedPart> picture;  ///< one part, or the bodies of one product
-  std::string size;                 ///< of the bounding box, with unit
+  std::string size;                 ///< of the bounding box, with unit; before it what the part is, if that is known
 };
 
 /// A line of the table of contents: a step, or the name of what the steps after it build.
@@ -58,7 +58,8 @@ struct BookContent {
   std::vector<BookItem> items;
   std::string base;                    ///< what the book leaves together and does not list, in words; empty: nothing
   std::vector<ContentsLine> job;       ///< fasteners and tools of the whole job, without pages; empty: there are none
-  std::vector<ContentsLine> contents;  ///< empty: too few pages for it
+  std::vector<ContentsLine> contents;  ///< empty: too few pages for it; a page that is none of `pages`: `account`
+  std::vector<ContentsLine> account;   ///< what was checked, not checked, assumed, and why this order; without pages
   std::vector<BookChapter> chapters;
   PartNumbers numbers;          ///< by part: of its item
   std::vector<BookPage> pages;  ///< by number; `step` points into `chapters`

@@ -18,6 +18,7 @@ section { background: var(--paper); max-width: 1120px; margin: 18px auto; paddin
   box-shadow: 0 1px 4px #0002; }
 h1 { font-size: 34px; margin: 0 0 4px; overflow-wrap: anywhere; }
 h2 { font-size: 22px; margin: 0 0 12px; }
+h3 { font-size: 16px; margin: 18px 0 4px; }
 p { margin: 6px 0; }
 img { max-width: 100%; height: auto; display: block; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: 3px 14px; margin: 10px 0 0; font-size: 14px; }
@@ -92,8 +93,10 @@ std::string contents_list(const BookContent& content, const std::string& title) 
   if (content.contents.empty()) return {};
   std::string out = "<section id=\"contents\"><h2>" + title + "</h2><div class=\"contents\">\n";
   for (const ContentsLine& line : content.contents)
-    out += fmt::format("<p{}><a href=\"#step-{}\">{}</a></p>\n", line.heading ? " class=\"heading\"" : "",
-                       content.pages[line.page].number, escaped_markup(line.words));
+    out += fmt::format("<p{}><a href=\"#{}\">{}</a></p>\n", line.heading ? " class=\"heading\"" : "",
+                       line.page < content.pages.size() ? fmt::format("step-{}", content.pages[line.page].number)
+                                                        : std::string("account"),
+                       escaped_markup(line.words));
   return out + "</div></section>\n";
 }
 
@@ -104,6 +107,13 @@ std::string job_section(const BookContent& content, const std::string& title) {
   for (const ContentsLine& line : content.job)
     out += fmt::format("<p{}>{}</p>\n", line.heading ? " class=\"heading\"" : "", escaped_markup(line.words));
   return out + "</div></section>\n";
+}
+
+std::string account_section(const BookContent& content, const std::string& title) {
+  std::string out = "<section id=\"account\"><h2>" + title + "</h2>\n";
+  for (const ContentsLine& line : content.account)
+    out += fmt::format("<{0}>{1}</{0}>\n", line.heading ? "h3" : "p", escaped_markup(line.words));
+  return out + "</section>\n";
 }
 
 /// The box of the parts of a step.
@@ -185,7 +195,7 @@ std::string book_html(const Plan& plan, const Assembly& assembly, const BookOpti
     const StepPictures pictures = illustrator.step(*page.step, options.disassembly, 1, content.numbers, page.held);
     out += step_page(page, pictures, parts_box(page, illustrator), words, options.disassembly);
   }
-  return out + "</body>\n</html>\n";
+  return out + account_section(content, label("What was checked")) + "</body>\n</html>\n";
 }
 
 }  // namespace dismantle

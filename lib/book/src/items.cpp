@@ -50,7 +50,10 @@ class ItemFinder {
     for (std::size_t i = 0; i < assembly_.parts.size(); ++i) {
       if (!listed_here[i]) continue;
       const auto [it, fresh] = item_of_shape.try_emplace(firsts[i], content_.items.size());
-      if (fresh) add_item({{i, Pose{}}});
+      if (fresh) {
+        add_item({{i, Pose{}}});
+        content_.items.back().size = kind_words(assembly_.parts[i].name) + content_.items.back().size;
+      }
       BookItem& item = content_.items[it->second];
       item.names.push_back(assembly_.parts[i].name);
       numbers_.of_part[i] = it->second;
@@ -102,6 +105,14 @@ class ItemFinder {
       content_.items[it->second].names.push_back(component.name);
       numbers_.of_component.emplace(component.name, it->second);
     }
+  }
+
+  /// "screw M5x20, "; empty for what is not recognised.
+  std::string kind_words(const std::string& name) const {
+    for (const PlanPart& part : plan_.assembly.parts)
+      if (part.name == name && part.kind && part.kind->kind != "other")
+        return part.kind->kind + (part.kind->size.empty() ? "" : " " + part.kind->size) + ", ";
+    return {};
   }
 
   void add_item(std::vector<PlacedPart> picture) {

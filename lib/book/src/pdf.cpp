@@ -71,14 +71,19 @@ class PdfPages {
     return height_in(layout_of(width, words, size, bold).get());
   }
 
-  /// Draws a list of facts, nothing of it below `bottom`. Returns its height.
+  /// Draws a list of facts, nothing of it below `bottom`; a long one is set in smaller type if there is no room for
+  /// all. Returns its height.
   double facts(double x, double y, double width, const Facts& facts, double size, double bottom) {
     const double begin = y, column = 6.6 * size;
+    double whole = 0;
+    for (const auto& [name, value] : facts)
+      whole += 2 + std::max(height_of(column - 6, name, size, false), height_of(width - column, value, size, false));
+    const double highest = y + whole <= bottom ? bottom - y : 5.2 * size;
     for (const auto& [name, value] : facts) {
       if (y + 1.4 * size > bottom) break;
       const double most = bottom - y;
       const double a = text(x, y, column - 6, name, size, style_.soft, false, most);
-      const double b = text(x + column, y, width - column, value, size, style_.text, false, std::min(most, 5.2 * size));
+      const double b = text(x + column, y, width - column, value, size, style_.text, false, std::min(most, highest));
       y += std::max(a, b) + 2;
     }
     return y - begin;
@@ -227,6 +232,26 @@ void job_pages(PdfPages& pdf, const BookContent& content, const BookWords& words
   }
 }
 
+/// What was checked, from the top, on as many pages as it takes.
+void account_pages(PdfPages& pdf, const BookContent& content, const BookWords& words) {
+  const PageStyle& style = pdf.style();
+  const double margin = style.margin, width = style.width - 2 * margin, indent = 10, size = 10.5;
+  double y = style.height;  // no page yet
+  for (std::size_t i = 0; i < content.account.size(); ++i) {
+    const ContentsLine& line = content.account[i];
+    const double left = line.heading ? 0 : indent, height = pdf.height_of(width - left, line.words, size, line.heading);
+    const double room = line.heading ? 8 + 3 * size : 0;  // no heading at the foot of a page
+    if (y + height + room > style.height - margin) {
+      if (i > 0) pdf.end_page();
+      pdf.text(margin, margin, width, words.label("What was checked"), 19, style.text, true);
+      y = margin + 34;
+    }
+    if (line.heading) y += 8;
+    y += pdf.text(margin + left, y, width - left, line.words, size, style.text, line.heading) + 3;
+  }
+  if (!content.account.empty()) pdf.end_page();
+}
+
 /// Two columns of lines with the numbers of their pages.
 void contents_pages(PdfPages& pdf, const BookContent& content, const BookWords& words) {
   if (content.contents.empty()) return;
@@ -275,11 +300,12 @@ void item_pages(PdfPages& pdf, const BookContent& content, const Illustrator& il
     const std::string names = fmt::format("{}", fmt::join(item.names, ", "));
     const double name_height = std::min(pdf.height_of(w - 12, item.name, 9.5, true), 30.0);
     const double names_height = several ? std::min(pdf.height_of(w - 12, names, 7.5, false), 30.0) : 0;
-    double line = y + h - name_height - names_height - 16;
+    const double size_height = std::min(pdf.height_of(w - 12, item.size, 7.5, false), 20.0);
+    double line = y + h - name_height - names_height - size_height - 6;
     pdf.picture(illustrator.scene(item.picture, illustrator.style().item), x + 6, y + 18, w - 12, line - y - 20);
     line += pdf.text(x + 6, line, w - 12, item.name, 9.5, style.text, true, 30);
     if (several) line += pdf.text(x + 6, line, w - 12, names, 7.5, style.soft, false, 30);
-    pdf.text(x + 6, line, w - 12, item.size, 7.5, style.soft, false, 10);
+    pdf.text(x + 6, line, w - 12, item.size, 7.5, style.soft, false, 20);
     if (at + 1 == per_page || i + 1 == content.items.size()) pdf.end_page();
   }
 }
@@ -354,6 +380,7 @@ std::string book_pdf(const Plan& plan, const Assembly& assembly, const BookOptio
     const StepPictures pictures = illustrator.step(*page.step, options.disassembly, 1.5, content.numbers, page.held);
     pdf_step(pdf, page, pictures, illustrator, words, options.disassembly);
   }
+  account_pages(pdf, content, words);
   return pdf.finish();
 }
 

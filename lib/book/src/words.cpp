@@ -11,7 +11,7 @@ namespace dismantle {
 namespace {
 
 bool in_word(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0 || (static_cast<unsigned char>(c) & 0x80) != 0;
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || (static_cast<unsigned char>(c) & 0x80) != 0;
 }
 
 }  // namespace
@@ -109,7 +109,13 @@ const std::vector<std::string>& book_labels() {
       "Not verified: in these steps parts cut into others: {}.",
       "{} shapes",
       "Fasteners",
-      "Tools"};
+      "Tools",
+      "What was checked",
+      "Why this order",
+      "Checked",
+      "Not checked",
+      "Assumed",
+      "order"};
   return labels;
 }
 

@@ -131,7 +131,7 @@ TEST(Book, HtmlHasAPagePerStepAndNamesEveryPart) {
   EXPECT_NE(html.find("<h1>&lt;b&gt;&amp;&quot;title&quot;</h1>"), std::string::npos);
   std::size_t sections = 0;
   for (std::size_t at = html.find("<section"); at != std::string::npos; at = html.find("<section", at + 1)) ++sections;
-  EXPECT_EQ(sections, 2 + pages);
+  EXPECT_EQ(sections, 3 + pages) << "title, materials, what was checked";
   for (const Part& part : assembly.parts) EXPECT_NE(html.find(part.name), std::string::npos);
   // p0 and p3, p1 and p4 are the same boxes.
   EXPECT_NE(html.find("5, 3 shapes"), std::string::npos);
@@ -170,7 +170,7 @@ TEST(Book, PdfHasAPagePerStep) {
   const Plan plan = random_plan(assembly, random);
   const std::string pdf = book_pdf(plan, assembly, {});
   EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
-  EXPECT_NE(pdf.find("/Count " + std::to_string(2 + plan.disassembly.size())), std::string::npos);
+  EXPECT_NE(pdf.find("/Count " + std::to_string(3 + plan.disassembly.size())), std::string::npos);
 }
 
 std::size_t count_of(const std::string& text, const std::string& what) {
@@ -191,7 +191,7 @@ TEST(Book, AThickBookHasATableOfContents) {
     EXPECT_NE(contents.find("href=\"#" + place), std::string::npos) << number;
     EXPECT_NE(html.find("id=\"" + place), std::string::npos) << number;
   }
-  EXPECT_NE(book_pdf(plan, assembly, {}).find("/Count " + std::to_string(3 + plan.disassembly.size())),
+  EXPECT_NE(book_pdf(plan, assembly, {}).find("/Count " + std::to_string(4 + plan.disassembly.size())),
             std::string::npos);
 }
 
@@ -208,13 +208,36 @@ TEST(Book, ListsTheFastenersAndToolsOfTheJob) {
        .notes = {{"tool_access.tool", "", R"({"part": "p5", "tool": "hex_key_2.5", "name": "hex key 2.5"})"}}});
   const std::string html = book_html(plan, assembly, {});
   EXPECT_NE(html.find("<p>2x screw M3x10: hex key 2.5</p>"), std::string::npos);
+  EXPECT_NE(html.find("<div class=\"soft\">screw M3x10, "), std::string::npos) << "and the bill of materials says it";
   EXPECT_NE(html.find("<p>hex key 2.5: 1x M3x10, step " + std::to_string(plan.disassembly.size()) + "</p>"),
             std::string::npos);
   BookOptions apart;
   apart.disassembly = true;
   EXPECT_NE(book_html(plan, assembly, apart).find("<p>hex key 2.5: 1x M3x10, step 1</p>"), std::string::npos);
-  EXPECT_NE(book_pdf(plan, assembly, {}).find("/Count " + std::to_string(4 + plan.disassembly.size())),
+  EXPECT_NE(book_pdf(plan, assembly, {}).find("/Count " + std::to_string(5 + plan.disassembly.size())),
             std::string::npos);
+}
+
+// The last page: what was checked, not checked, assumed, and why this order; each step says what it waits for.
+TEST(Book, SaysWhatWasCheckedAndWhyThisOrder) {
+  std::mt19937 random(23);
+  const Assembly assembly = row_of(8);
+  Plan plan = random_plan(assembly, random);
+  const std::size_t n = plan.disassembly.size();
+  for (PlanStep& step : plan.disassembly) step.layer = 1;
+  plan.disassembly[3].after = {1, 2};
+  plan.objective.checks = {{.type = "directions", .cost = 2}};
+  plan.objective.cost = 2;
+  plan.disassembly[3].checks = {{.type = "directions", .cost = 2}};
+  const std::string html = book_html(plan, assembly, {});
+  const std::string account = html.substr(html.find("<section id=\"account\">"));
+  for (const char* heading : {"Why this order", "Checked", "Not checked", "Assumed"})
+    EXPECT_NE(account.find("<h3>" + std::string(heading) + "</h3>"), std::string::npos) << heading;
+  EXPECT_NE(account.find("directions: costs 2 of 2, in step " + std::to_string(n - 3)), std::string::npos);
+  EXPECT_NE(html.find("<a href=\"#account\">What was checked</a>"), std::string::npos);
+  EXPECT_GT(html.find("<section id=\"account\">"), html.find("id=\"step-" + std::to_string(n) + "\""));
+  const std::string page = html.substr(html.find("id=\"step-" + std::to_string(n - 3) + "\""));
+  EXPECT_NE(page.substr(0, page.find("</section>")).find("before steps " + std::to_string(n - 1)), std::string::npos);
 }
 
 /// The plan takes out p0 and then p1; the others stay together.

@@ -17,6 +17,7 @@ TEST(BookWords, PhrasesAreWholeWordsAndNamesStay) {
   const BookWords words("de", {{"up", "hoch"}, {"put in", "einbauen"}, {"put", "legen"}, {"step {} of {}", "{} / {}"}});
   EXPECT_EQ(words.text("put in 'put up' up (+Z), upper"), "einbauen 'put up' hoch (+Z), upper");
   EXPECT_EQ(words.text("put"), "legen");
+  EXPECT_EQ(words.text("put_in, up_to, pile_up"), "put_in, up_to, pile_up") << "ids of checks and parameters";
   EXPECT_EQ(words.text("an open ' quote up"), "an open ' quote up") << "to the end";
   EXPECT_EQ(words.label("step {} of {}"), "{} / {}");
   EXPECT_EQ(words.label("Contents"), "Contents") << "what the file lacks stays English";

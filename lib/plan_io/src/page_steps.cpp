@@ -11,6 +11,7 @@
 #include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/input_frame.h"
 #include "dismantle/plan_io/motion_words.h"
+#include "dismantle/plan_io/order_words.h"
 #include "dismantle/plan_io/thread_words.h"
 #include "dismantle/plan_io/verdicts.h"
 #include "steps/timeline.h"
@@ -85,11 +86,11 @@ StepsJson tools_json(const std::vector<PlanVerdict>& checks, const Holds& parts)
   return out;
 }
 
-/// One object per step; `checks_of`: what the objective says of a step; `how_far`: reached_text() of a step. Without
-/// any step that says how the assembly lies, nothing is said of it.
-template <class ChecksOf, class HowFar>
+/// One object per step; `checks_of`: what the objective says of a step; `how_far`: reached_text() of a step; `order`:
+/// order_words() of it. Without any step that says how the assembly lies, nothing is said of it.
+template <class ChecksOf, class HowFar, class OrderOf>
 StepsJson steps_json(const Plan& plan, const std::vector<PlanStep>& steps, const StepUps& ups, ChecksOf checks_of,
-                     HowFar how_far) {
+                     HowFar how_far, OrderOf order) {
   const InputFrame frame = input_frame(plan);
   const Holds holds(plan);
   StepsJson out = StepsJson::array();
@@ -105,6 +106,7 @@ StepsJson steps_json(const Plan& plan, const std::vector<PlanStep>& steps, const
     if (const auto held = holds.of(checks_of(steps[s])); !held.empty()) step["hold"] = held;
     if (const auto threads = thread_words(plan, steps[s]); !threads.empty()) step["threads"] = threads;
     if (const std::string far = how_far(steps[s]); !far.empty()) step["how_far"] = far;
+    if (const std::string words = order(steps[s]); !words.empty()) step["order"] = words;
     if (StepsJson tools = tools_json(checks_of(steps[s]), holds); !tools.empty()) step["tools"] = std::move(tools);
     out.push_back(std::move(step));
   }
@@ -127,8 +129,13 @@ StepsJson page_steps(const Plan& plan) {
     const std::size_t n = plan.disassembly.size();
     return step.step >= 1 && step.step <= n ? far(plan.disassembly[n - step.step]) : std::string();
   };
-  return {{"disassembly", steps_json(plan, plan.disassembly, disassembly_ups(plan), own, far)},
-          {"assembly", steps_json(plan, plan.assembly_steps, assembly_ups(plan), reversed, far_back)}};
+  const auto order = [&](const PlanStep& step) { return order_words(plan, step.step - 1, true); };
+  const auto order_back = [&](const PlanStep& step) {
+    const std::size_t n = plan.disassembly.size();
+    return step.step >= 1 && step.step <= n ? order_words(plan, n - step.step, false) : std::string();
+  };
+  return {{"disassembly", steps_json(plan, plan.disassembly, disassembly_ups(plan), own, far, order)},
+          {"assembly", steps_json(plan, plan.assembly_steps, assembly_ups(plan), reversed, far_back, order_back)}};
 }
 
 StepsJson page_runs(const Plan& plan, const std::vector<StepRun>& runs) {

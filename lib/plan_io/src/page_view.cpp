@@ -12,6 +12,7 @@
 #include "dismantle/plan_io/base64.h"
 #include "dismantle/plan_io/explode.h"
 #include "dismantle/plan_io/input_frame.h"
+#include "dismantle/plan_io/order_words.h"
 #include "dismantle/plan_io/plan_account.h"
 #include "dismantle/plan_io/plan_history.h"
 #include "explain/reach.h"
@@ -97,7 +98,10 @@ ViewJson reasons_json(const Explanation& why, const Assembly& assembly, const Pl
 
 ViewJson account_json(const Plan& plan) {
   const PlanAccount account = account_of(plan);
-  return {{"checked", account.checked}, {"not_checked", account.not_checked}, {"assumed", account.assumed}};
+  return {{"checked", account.checked},
+          {"not_checked", account.not_checked},
+          {"assumed", account.assumed},
+          {"order", {{"disassembly", cost_words(plan, true)}, {"assembly", cost_words(plan, false)}}}};
 }
 
 }  // namespace

@@ -7,8 +7,11 @@ import {element, icon} from './dom.js';
 const account = (kind, title, sign, lines) => lines.length === 0 ? null : element(`section.account.${kind}`, {}, element('h2', {}, icon(sign), title),
   element('ul', {}, lines.map(line => element('li', {}, line))));
 
+const CONTACTS = {clearance: 'clearance', kissing: 'touching', uniform_interference: 'of one depth, as in a press fit or a thread',
+  local_interference: 'in a small place, as in a snap fit', duplicate: 'twice the same', inside: 'one inside the other'};
+
 export function makeAbout(app) {
-  const {checked, not_checked: open, assumed} = app.model.view.account;
+  const {checked, not_checked: open, assumed, order} = app.model.view.account;
   const {plan} = app.model, {assembly} = plan, rows = [];
   const row = (name, ...value) => rows.push(element('dt', {}, name), element('dd', {}, ...value));
   const worst = Math.max(0, ...plan.disassembly.map(s => s.max_penetration));
@@ -31,9 +34,13 @@ export function makeAbout(app) {
   row('made by', `${plan.generator.name} ${plan.generator.version}, seed ${plan.seed}`);
   row('input', element('code', {}, assembly.sha256));
   const overlaps = assembly.overlaps.slice().sort((a, b) => b.depth - a.depth);
-  return element('div.pane', {}, account('good', 'Checked', 'check', checked), account('warn', 'Not checked', 'warning', open),
+  const why = element('div', {});
+  const showWhy = () => why.replaceChildren(account('plain', 'Why this order', 'help', order[app.mode]));
+  app.on(what => { if (what === 'mode') showWhy(); });
+  showWhy();
+  return element('div.pane', {}, why, account('good', 'Checked', 'check', checked), account('warn', 'Not checked', 'warning', open),
     account('plain', 'Assumed', 'help', assumed), element('dl.facts.wide', {}, rows),
     overlaps.length === 0 ? null : element('details', {}, element('summary', {}, `${counted(overlaps.length, 'pair')} overlap when assembled`),
       element('p.note', {}, 'Usual in CAD: allowed as it was, for this pair alone.'),
-      element('ul.plain', {}, overlaps.map(o => element('li', {}, `${o.a} and ${o.b}: ${share(o.depth, plan)} of the size${o.class ? `, ${o.class.replaceAll('_', ' ')}` : ''}`)))));
+      element('ul.plain', {}, overlaps.map(o => element('li', {}, `${o.a} and ${o.b}: ${share(o.depth, plan)} of the size${o.class ? `, ${CONTACTS[o.class] ?? o.class}` : ''}`)))));
 }

@@ -13,7 +13,7 @@ function facts(app, index) {
   const {step} = app.line.steps[index], {plan} = app.model, rows = [], details = [];
   const put = to => (name, ...value) => to.push(element('dt', {}, name), element('dd', {}, ...value));
   const row = put(rows), detail = put(details);
-  const {lies_words: lies, turned, threads = []} = app.model.about(app.mode, index);
+  const {lies_words: lies, turned, threads = [], order} = app.model.about(app.mode, index);
   if (turned) row('first', 'turn the assembly');
   if (lies) row('lies', lies);
   const held = app.model.held(app.mode, index);
@@ -28,7 +28,7 @@ function facts(app, index) {
   const {how_far: far} = app.model.about(app.mode, index);
   if (far) row('how far', `${far}.`);
   if (step.contacts?.length > 0) row('touches', step.contacts.join(', '));
-  if (step.after?.length > 0) row('after', `step${step.after.length === 1 ? '' : 's'} ${step.after.join(', ')}`);
+  if (order) row('order', `${order}.`);
   if (step.max_penetration !== undefined && !step.forced)
     detail('cuts in', `at most ${number(step.max_penetration)} of ${number(plan.verified_max_penetration)} units allowed (${share(step.max_penetration, plan)} of the size)`);
   if (step.clearance !== undefined) detail('clearance', `${number(step.clearance)} units`);

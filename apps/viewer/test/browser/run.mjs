@@ -321,6 +321,23 @@ const heldPlan = name => changedPlan(folder, 'stacked_box', name, plan => {
   });
 });
 
+test('a step says what has to come before and after it, the summary which check costs what, with the numbers of the mode', async () => {
+  const page = await open(browser, heldPlan('ordered')), {plan} = shelf, n = plan.disassembly.length;
+  const waiting = plan.disassembly.find(s => s.after?.length > 0), [first] = waiting.after;
+  const openStep = (mode, number) => page.evaluate(([m, i]) => { window.dismantle.setMode(m); window.dismantle.seek(window.dismantle.timeOf(m, i, 0)); }, [mode, number - 1]);
+  await openStep('disassembly', waiting.step);
+  assert.match(await page.locator('.steps li.open').textContent(), new RegExp(`orderafter steps? .*\\b${first}\\b.*: parts are in the way otherwise`));
+  await openStep('assembly', n + 1 - waiting.step);
+  assert.match(await page.locator('.steps li.open').textContent(), new RegExp(`order(after .*, )?before steps? .*\\b${n + 1 - first}\\b`));
+  await page.getByRole('tab', {name: 'Summary'}).click();
+  const why = page.locator('.account', {hasText: 'Why this order'});
+  assert.match(await why.textContent(), new RegExp(`gravity: costs 1 of 1, in step ${n - 1}\\D`));
+  await page.evaluate('window.dismantle.setMode("disassembly")');
+  assert.match(await why.textContent(), /gravity: costs 1 of 1, in step 2\D/);
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+});
+
 test('a step shows what moves, what must be held, and the notes; how it was found is behind "Details"', async () => {
   const page = await open(browser, heldPlan('held')), {plan} = shelf, [held] = plan.remaining, state = () => page.evaluate('window.dismantle.state()');
   assert.deepEqual(await page.locator('.steps .pill.held').count(), 1);
