@@ -292,6 +292,26 @@ class Serve(CliTest):
         self.assertEqual((product["job"]["status"], product["constraints"]["accept"]), ("complete", accept), product["job"])
         self.assertEqual(product["steps"][0]["cut"]["accepted"], "snap")
 
+    @unittest.skipUnless(" book " in HELP, "built without pango")
+    def test_instructions_are_written_beside_the_plan_and_go_with_it(self):
+        self.blocks()
+        self.write("in/blocks.notes.yaml", "notes: [{parts: [block_1], text: Mind the paint.}]\n")
+        self.assertEqual(self.status("GET", "/plan/blocks/book.pdf"), 404)
+        self.ask("/api/book", name="blocks")
+        product = self.wait("blocks")
+        self.assertEqual((product["job"]["kind"], product["job"]["state"], product["has_book"]), ("book", "done", True), product["job"])
+        status, headers, content = self.request("GET", "/plan/blocks/book.pdf")
+        self.assertEqual((status, headers["Content-Type"], content[:5]), (200, "application/pdf", b"%PDF-"))
+        self.assertEqual(len(product["steps"]), 4, "the plan is still there")
+        self.ask("/api/move", name="blocks", step=4, before=2)
+        product = self.wait("blocks")
+        self.assertEqual((product["job"]["state"], product["has_book"]), ("done", False), "the instructions were for the other order")
+        self.assertIn("it costs ", product["job"]["costs"])
+        self.ask("/api/undo", name="blocks")
+        self.assertTrue(self.product("blocks")["has_book"])
+        self.write("in/pair/a.obj", box((0, 0, 0), (1, 1, 1)))
+        self.ask("/api/book", status=409, name="pair")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -87,7 +87,16 @@ function start() {
   }
   listen(app, display, help);
   followAddress(app);
+  tellFrame(app);
   expose(app, display);
+}
+
+/** A page that shows this one in a frame is told which part is selected: that of `dismantle serve` marks parts. */
+function tellFrame(app) {
+  if (window.parent === window) return;
+  app.on(what => {
+    if (what === 'selection') window.parent.postMessage({dismantle: 'selection', part: app.model.parts[app.selected]?.name ?? null}, '*');
+  });
 }
 
 try {

@@ -94,8 +94,14 @@ std::optional<fs::path> Folder::settings(const std::string& name) const {
   return is_file(file) ? std::optional(file) : std::nullopt;
 }
 
+std::optional<fs::path> Folder::notes(const std::string& name) const {
+  const fs::path file = path_ / (name + ".notes.yaml");
+  return is_file(file) ? std::optional(file) : std::nullopt;
+}
+
 std::optional<fs::path> Folder::plan_file(const std::string& name, const std::string& file) const {
-  constexpr std::string_view given[] = {"index.html", "plan.json", "plan.glb", "precedence.dot", "resolved.yaml"};
+  constexpr std::string_view given[] = {"index.html",     "plan.json",     "plan.glb",
+                                        "precedence.dot", "resolved.yaml", "book.pdf"};
   if (std::ranges::find(given, file) == std::end(given)) return {};
   const fs::path folder = plan(name);
   return is_folder(folder) && is_file(folder / file) ? std::optional(folder / file) : std::nullopt;

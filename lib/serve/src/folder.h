@@ -3,7 +3,8 @@
 ///     gear.step                 a product (also a folder of meshes)
 ///     gear.yaml                 settings of the user, may be missing
 ///     gear.constraints.yaml     constraints that were chosen in the page
-///     gear.plan/                the plan
+///     gear.notes.yaml           notes on steps, may be missing
+///     gear.plan/                the plan; book.pdf, if it was asked for
 ///     gear.plan.1/, ...         earlier ones, for undo
 ///     gear.plan.new/            what a running job writes
 #pragma once
@@ -50,6 +51,9 @@ class Folder {
   std::optional<std::filesystem::path> constraints(const std::string& name) const;
   /// Settings to plan with; nothing: the defaults.
   std::optional<std::filesystem::path> settings(const std::string& name) const;
+
+  /// Notes on steps for the instructions; nothing: none.
+  std::optional<std::filesystem::path> notes(const std::string& name) const;
 
   /// A file of a plan that may be given away; nothing when it is not there or no such file.
   std::optional<std::filesystem::path> plan_file(const std::string& name, const std::string& file) const;

@@ -45,7 +45,7 @@ nlohmann::json to_json(const JobReport& report) {
                         {"progress", report.progress},
                         {"seconds", report.seconds},
                         {"message", report.message}};
-  for (const char* key : {"status", "step", "steps", "parts", "removed", "left"})
+  for (const char* key : {"status", "step", "steps", "parts", "removed", "left", "costs"})
     if (report.result.contains(key)) out[key] = report.result[key];
   return out;
 }

@@ -29,6 +29,7 @@ using httplib::Response;
 
 constexpr double kLongest = 86400;                 // s, the largest time limit that the page may name
 constexpr std::size_t kLargestQuestion = 1 << 20;  // bytes of JSON
+constexpr const char* kBook = "book";              // kind of a job
 
 /// What is answered instead.
 struct Refusal {
@@ -59,6 +60,7 @@ const char* type_of(const std::string& file) {
   if (extension == ".html") return "text/html; charset=utf-8";
   if (extension == ".json") return "application/json";
   if (extension == ".glb") return "model/gltf-binary";
+  if (extension == ".pdf") return "application/pdf";
   return "text/plain; charset=utf-8";
 }
 
@@ -101,7 +103,10 @@ class Server::Impl {
     std::thread listener([this] { http_.listen_after_bind(); });
     jobs_.run(
         should_stop, [this](const Job& job) { folder_.discard(job.product); },
-        [this](const Job& job, bool good) { good ? folder_.install(job.product) : folder_.discard(job.product); });
+        [this](const Job& job, bool good) {
+          if (job.kind == kBook) return;  // it is beside its plan
+          good ? folder_.install(job.product) : folder_.discard(job.product);
+        });
     http_.stop();
     listener.join();
   }
@@ -172,6 +177,7 @@ class Server::Impl {
                           {"file", entry.input.filename().string()},
                           {"has_plan", entry.has_plan},
                           {"earlier", entry.earlier},
+                          {"has_book", folder_.plan_file(entry.name, "book.pdf").has_value()},
                           {"plan", folder_.summary(entry.name)}};
     if (const auto report = jobs_.report(entry.name)) out["job"] = to_json(*report);
     return out;
@@ -240,6 +246,7 @@ class Server::Impl {
                }));
     on_change("/api/plan", [this](const Entry& entry, const nlohmann::json& question) { plan(entry, question); });
     on_change("/api/move", [this](const Entry& entry, const nlohmann::json& question) { move(entry, question); });
+    on_change("/api/book", [this](const Entry& entry, const nlohmann::json&) { book(entry); });
     on_change("/api/constraints", [this](const Entry& entry, const nlohmann::json& q) { constrain(entry.name, q); });
     on_change("/api/undo", [this](const Entry& entry, const nlohmann::json&) {
       if (!folder_.undo(entry.name)) throw Refusal{409, "there is no earlier plan"};
@@ -267,10 +274,11 @@ class Server::Impl {
     answer(response, {{"ok", true}}, 201);
   }
 
-  void start(const Entry& entry, const char* kind, std::vector<std::string> arguments, double timeout) {
+  void start(const Entry& entry, const char* kind, std::vector<std::string> arguments, const fs::path& output,
+             double timeout) {
     if (entry.input.empty()) throw Refusal{409, "the input of this plan is not in the folder"};
     arguments.insert(arguments.begin(), settings_.program.string());
-    arguments.insert(arguments.end(), {"-o", folder_.fresh(entry.name).string(), "--format", "json"});
+    arguments.insert(arguments.end(), {"-o", output.string(), "--format", "json"});
     // The program ends by itself at its time limit; what it does after that takes time, too.
     Job job{.product = entry.name, .kind = kind, .command = std::move(arguments), .wall = 2 * timeout + 600};
     if (!jobs_.add(std::move(job))) throw Refusal{503, "too many jobs are waiting"};
@@ -292,7 +300,21 @@ class Server::Impl {
     }
     if (const auto settings = folder_.settings(entry.name))
       arguments.insert(arguments.end(), {"-c", settings->string()});
-    start(entry, "plan", std::move(arguments), timeout);
+    start(entry, "plan", std::move(arguments), folder_.fresh(entry.name), timeout);
+  }
+
+  fs::path planned(const Entry& entry) const {
+    const auto plan = folder_.plan_file(entry.name, "plan.json");
+    if (!plan) throw Refusal{409, "there is no plan yet"};
+    return *plan;
+  }
+
+  /// Instructions for the plan as it is.
+  void book(const Entry& entry) {
+    const fs::path plan = planned(entry);
+    std::vector<std::string> arguments{"book", plan.string(), "--assembly", entry.input.string()};
+    if (const auto notes = folder_.notes(entry.name)) arguments.insert(arguments.end(), {"--notes", notes->string()});
+    start(entry, kBook, std::move(arguments), fs::path(plan).replace_filename("book.pdf"), settings_.timeout);
   }
 
   /// Takes effect when it is planned again.
@@ -316,18 +338,17 @@ class Server::Impl {
   }
 
   void move(const Entry& entry, const nlohmann::json& question) {
-    const auto plan = folder_.plan_file(entry.name, "plan.json");
-    if (!plan) throw Refusal{409, "there is no plan yet"};
+    const fs::path plan = planned(entry);
     const bool before = question.contains("before");
     const char* const beside = before ? "before" : "after";
     for (const char* key : {"step", beside})
       if (!question.contains(key) || !question[key].is_number_unsigned() || question[key].get<std::uint64_t>() == 0)
         throw Refusal{400, fmt::format("'{}' must be the number of a step", key)};
     start(entry, "edit",
-          {"edit", plan->string(), "--assembly", entry.input.string(), "--move-step",
+          {"edit", plan.string(), "--assembly", entry.input.string(), "--move-step",
            std::to_string(question["step"].get<std::uint64_t>()), fmt::format("--{}", beside),
            std::to_string(question[beside].get<std::uint64_t>())},
-          settings_.timeout);
+          folder_.fresh(entry.name), settings_.timeout);
   }
 
   const Settings settings_;
