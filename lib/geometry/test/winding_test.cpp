@@ -15,8 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d gaussian(Rng& rng) { return {rng.normal(), rng.normal(), rng.normal()}; }
-
 /// Against one set per cell.
 TEST(RowRuns, HoldWhatWasAdded) {
   Rng rng(31);
@@ -84,7 +82,7 @@ TEST(UnrolledMesh, WhatIsProvedToPassDoesNotHit) {
     Corners t;
     const double start = 2 * M_PI * rng.uniform();
     const Vector3d middle(radius * std::cos(start), radius * std::sin(start), 0.3 * rng.normal());
-    for (Vector3d& corner : t) corner = middle + 0.1 * gaussian(rng);
+    for (Vector3d& corner : t) corner = middle + 0.1 * Vector3d(rng.normal(), rng.normal(), rng.normal());
     Ring ring;
     ring.add(w, t);
     const UnrolledMesh mesh(block, w, ring, 0.002);
