@@ -36,9 +36,9 @@ SearchStats& SearchStats::operator+=(const SearchStats& other) {
 
 std::map<std::string, double> SearchStats::by_name() const {
   std::map<std::string, double> all = extra;
-  const std::pair<const char*, std::uint64_t> counts[] = {{"steps", steps},     {"state_checks", state_checks},
-                                                          {"nodes", nodes},     {"refused", refused},
-                                                          {"spared", spared},   {"resumed_nodes", resumed_nodes}};
+  const std::pair<const char*, std::uint64_t> counts[] = {{"steps", steps},   {"state_checks", state_checks},
+                                                          {"nodes", nodes},   {"refused", refused},
+                                                          {"spared", spared}, {"resumed_nodes", resumed_nodes}};
   for (const auto& [name, count] : counts)
     if (count > 0) all[name] = static_cast<double>(count);
   if (cost > 0) all["cost"] = cost;

@@ -33,8 +33,7 @@ class AttemptRunner {
   /// All references must outlive the runner. `deferred` (may be null) prepares the parts before the first search. `rng`
   /// is the run's generator.
   AttemptRunner(const Assembly& assembly, const PreparedAssembly& prepared, const PlanningSetup& setup,
-                const DeferredSimulator* deferred, const RunOptions& options, const Verifier& verifier,
-                const Rng& rng);
+                const DeferredSimulator* deferred, const RunOptions& options, const Verifier& verifier, const Rng& rng);
 
   /// `attempt` is canonical and `key` belongs to it. The deadline of `context` is that of the run; the time limit of
   /// the attempt is added here. `resumed`: null, or the answer of the search that this one resumes. A proof found in
@@ -47,9 +46,7 @@ class AttemptRunner {
   ComputedAttempt check_proposal(const Attempt& attempt, const Path& path, const RunContext& context) const;
 
   /// Upper bound of the way of any point on the path of `answer`, a success; assembly units.
-  double length(const AttemptResult& answer) const {
-    return normalizer_.length(answer.path(), answer.attempt.moving);
-  }
+  double length(const AttemptResult& answer) const { return normalizer_.length(answer.path(), answer.attempt.moving); }
   const std::string& planner_id() const { return planner_id_; }
 
  private:

@@ -26,7 +26,7 @@ struct NormalizedPath {
   Path path;
   std::vector<double> lengths;        ///< for each instant, the length of the way from the start; assembly units
   std::vector<double> given_lengths;  ///< the same for each instant of the given path
-  std::string problem;            ///< not empty: the given path is unusable
+  std::string problem;                ///< not empty: the given path is unusable
 
   /// Index of the last given instant at or before parameter `u` in [0, 1] of `segment`, which begins at instant
   /// `segment`.
