@@ -16,6 +16,7 @@
 #include "dismantle/preparation/name_pattern.h"
 #include "dismantle/session/objective.h"
 #include "plan_report.h"
+#include "repair_classes.h"
 #include "settings.h"
 #include "stopped.h"
 
@@ -37,6 +38,12 @@ struct AccessOptions {
 struct Answer {
   std::string name;
   PartAccess access;
+  std::vector<RepairClass> classes{};  ///< of the steps
+  RepairClass worst() const {
+    RepairClass all;
+    for (const RepairClass& c : classes) all.add(c);
+    return all;
+  }
   bool forced() const {
     return std::any_of(access.steps.begin(), access.steps.end(), [](const AccessStep& s) { return s.forced; });
   }
@@ -75,24 +82,30 @@ Json answer_json(const Answer& answer, const Plan& plan) {
   json["forced"] = answer.forced();
   json["cost"] = access.cost ? Json(*access.cost) : Json();
   json["cheapest"] = access.cheapest;
+  json["fasteners"] = to_string(answer.worst().fasteners);
+  json["tools"] = to_string(answer.worst().tools);
   json["steps"] = Json::array();
-  for (const AccessStep& step : access.steps) {
+  for (std::size_t k = 0; k < access.steps.size(); ++k) {
+    const AccessStep& step = access.steps[k];
     Json& written = json["steps"].emplace_back(Json{{"parts", names_of(step.parts, plan)}});
     written["direction"] =
         step.direction.isZero() ? Json() : Json{step.direction.x(), step.direction.y(), step.direction.z()};
+    written["fasteners"] = to_string(answer.classes[k].fasteners);
+    written["tools"] = to_string(answer.classes[k].tools);
     if (step.forced) written["forced"] = true;
   }
   return json;
 }
 
 std::string csv_of(const std::vector<Answer>& answers, const Plan& plan) {
-  std::string out = "part,depth,least_depth,optimal,forced,cost,cheapest,before\n";
+  std::string out = "part,depth,least_depth,optimal,forced,cost,cheapest,fasteners,tools,before\n";
   const auto yes = [](bool b) { return b ? "yes" : "no"; };
   for (const Answer& a : answers) {
     const std::string depth = a.reached() ? fmt::format("{}", a.access.depth()) : "";
     const std::string cost = a.access.cost ? fmt::format("{}", *a.access.cost) : "";
-    out += fmt::format("{},{},{},{},{},{},{},{}\n", csv_field(a.name), depth, a.access.least_depth,
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csv_field(a.name), depth, a.access.least_depth,
                        yes(a.access.optimal), yes(a.forced()), cost, yes(a.access.cheapest),
+                       to_string(a.worst().fasteners), to_string(a.worst().tools),
                        csv_field(fmt::format("{}", fmt::join(before(a, plan), "; "))));
   }
   return out;
@@ -110,7 +123,8 @@ std::string depth_text(const Answer& answer) {
 std::string text_of(const std::vector<Answer>& answers, const Plan& plan) {
   std::size_t width = 4;
   for (const Answer& a : answers) width = std::max(width, text::width_of(a.name));
-  std::string out = fmt::format("{}  {:>8}  {:>8}  {}\n", text::padded("part", width), "depth", "cost", "first out");
+  std::string out =
+      fmt::format("{}  {:>8}  {:>8}  {:<14}  {}\n", text::padded("part", width), "depth", "cost", "tools", "first out");
   std::size_t proved = 0, open = 0, forced = 0;
   for (const Answer& a : answers) {
     const std::string cost = a.access.cost ? fmt::format("{:.4g}", *a.access.cost) : "";
@@ -121,7 +135,8 @@ std::string text_of(const std::vector<Answer>& answers, const Plan& plan) {
     if (all > kShown) first += fmt::format(", and {} more", all - kShown);
     if (!a.reached()) first = "no way is known";
     if (a.forced()) first += " (by force)";
-    std::string line = fmt::format("{}  {:>8}  {:>8}  {}", text::padded(a.name, width), depth_text(a), cost, first);
+    std::string line = fmt::format("{}  {:>8}  {:>8}  {:<14}  {}", text::padded(a.name, width), depth_text(a), cost,
+                                   a.reached() ? to_string(a.worst().tools) : "", first);
     line.erase(line.find_last_not_of(' ') + 1);
     out += line + "\n";
     proved += a.access.optimal ? 1 : 0;
@@ -208,6 +223,8 @@ int access(const AccessOptions& options) {
   for (const auto& [name, part] : units) {
     looking.progress("access", answers.size() + 1, units.size(), name);
     answers.push_back({name, routes ? routes->to(part) : access_as_planned(part, planned.disassembly, constraints)});
+    for (const AccessStep& step : answers.back().access.steps)
+      answers.back().classes.push_back(repair_class(assembly, step.parts, step.forced));
   }
   console.end_progress();
 

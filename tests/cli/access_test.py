@@ -55,6 +55,25 @@ class Access(CliTest):
         self.assertEqual(len(text.splitlines()), 10)
         self.assertIn("8 parts; the fewest steps are proved for 8", text)
 
+    def test_classes_of_fasteners_and_tools(self):
+        self.run_program("sample", "bolt_and_nut", "-o", "bolt", status=0)
+        for part in self.classes("bolt").values():
+            self.assertEqual((part["fasteners"], part["tools"]), ("reusable", "basic"))
+            self.assertEqual([(s["fasteners"], s["tools"]) for s in part["steps"]], [("reusable", "basic")])
+        self.run_program("sample", "peg_in_hole", "-o", "peg", status=0)
+        for part in self.classes("peg").values():
+            self.assertEqual((part["fasteners"], part["tools"]), ("none", "none"))
+
+    def test_what_leaves_by_force_is_not_removable(self):
+        self.run_program("sample", "snap_fit", "-o", "snap", status=0)
+        done = self.run_program("access", "snap", "--format", "json", "-q", status=1)
+        for part in self.result_of(done)["parts"]:
+            self.assertEqual((part["fasteners"], part["tools"]), ("neither", "not removable"))
+
+    def classes(self, name):
+        done = self.run_program("access", name, "--format", "json", "-q")
+        return {part["part"]: part for part in self.result_of(done)["parts"]}
+
     def test_what_is_kept_together_is_one(self):
         parts = self.depths("--set", "constraints.together=[[washer_1_1, shaft_1]]")["parts"]
         both = [p for p in parts if "together" in p]
