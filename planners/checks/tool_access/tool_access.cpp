@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <sstream>
 
 #include "dismantle/errors.h"
@@ -70,6 +71,12 @@ std::shared_ptr<const FastenerMemo> ToolAccess::memo_of(const Assembly& assembly
 
 StepVerdict ToolAccess::judge(const StepQuestion& question, const RunContext& /*context*/) const {
   const std::shared_ptr<const FastenerMemo> memo = memo_of(question.assembly);
+  // Without a fastener there is nothing to say, and the catalogue, which takes longest to read, is not needed.
+  const auto none_driven = [&](std::span<const PlacedPart> parts) {
+    return std::none_of(parts.begin(), parts.end(),
+                        [&](const PlacedPart& p) { return memo->driven(p.part) != nullptr; });
+  };
+  if (none_driven(question.moving) && (question.previous != nullptr || none_driven(question.present))) return {};
   return judge_step(*memo, {tools(), left_out_, params_.hand}, question);
 }
 
