@@ -95,7 +95,8 @@ bool Access::Impl::search(std::size_t unit, PartAccess& access) {
       found.best = cheaper.best;
     else
       found.best.cost = first;
-    access.cost = std::max(0.0, found.best.cost - Removals::kStep * static_cast<double>(found.best.variants.size()));
+    const double steps = Removals::kStep * static_cast<double>(found.best.variants.size());
+    access.cost = std::max(0.0, std::round((found.best.cost - steps) * 1e9) / 1e9);  // 16.1, not 16.09999999999854
     access.cheapest = removals.exact() && cheaper.bound >= found.best.cost - 1e-6;
   }
   for (const order::VariantId v : found.best.variants)
