@@ -123,6 +123,7 @@ class Checker {
       problem("it moves parts that do not belong together any more");
     } else {
       passed_[index] = without(*group, motion->moving);
+      bool holds = false;
       places_then_[index] = state_.place;
       if (step.forced) {
         ++result_.forced;
@@ -130,9 +131,10 @@ class Checker {
         note("", depths_.wrong_valid_to(step, *motion, placed(passed_[index])));
         if (!step.forced->accepted.empty()) accepted_holds(*step.forced, *motion, index);
       } else {
-        motion_holds(*motion, passed_[index], "", result_.step_penetration[index]);
+        holds = motion_holds(*motion, passed_[index], "", result_.step_penetration[index]);
       }
-      for (const PlanStepOverlap& o : step.overlaps) note("", depths_.wrong(o, *motion));
+      for (const PlanStepOverlap& o : step.overlaps)
+        note("", depths_.wrong(o, *motion, holds ? passed_[index] : Group{}));
     }
     for (std::size_t i = 0; i < motion->moving.size(); ++i) state_.place[motion->moving[i]] = motion->path.back()[i];
     if (group != state_.groups.end()) separate_groups(step, static_cast<std::size_t>(group - state_.groups.begin()));

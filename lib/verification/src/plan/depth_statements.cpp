@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dismantle/part_set.h"
 #include "plan/violation_text.h"
 
 namespace dismantle {
@@ -48,7 +49,8 @@ std::optional<std::string> DepthStatements::wrong_valid_to(const PlanStep& said,
                      violation_text(check.violation.value_or(Violation{}), assembly_));
 }
 
-std::optional<std::string> DepthStatements::wrong(const PlanStepOverlap& said, const StepMotion& motion) {
+std::optional<std::string> DepthStatements::wrong(const PlanStepOverlap& said, const StepMotion& motion,
+                                                  const std::vector<PartId>& held) {
   const auto part = state_.find(said.part), other = state_.find(said.other);
   const auto column_of = [&](const std::optional<PartId>& id) {
     return id ? std::find(motion.moving.begin(), motion.moving.end(), *id) : motion.moving.end();
@@ -61,8 +63,10 @@ std::optional<std::string> DepthStatements::wrong(const PlanStepOverlap& said, c
   for (const auto& instant : motion.path)
     path.push_back({instant[static_cast<std::size_t>(column - motion.moving.begin())]});
   const double scale = assembly_.normalization.scale;
-  const auto found = meter_.deepest({*part}, {{*other, state_.place[*other]}}, path,
-                                    {verifier_.options().max_penetration, kShare / 2}, context_, true);
+  MotionDepthOptions options{.absolute = verifier_.options().max_penetration, .relative = kShare / 2};
+  if (contains(held, *other))
+    options.at_most = assembly_.initial_overlap(*part, *other) + verifier_.options().max_penetration;
+  const auto found = meter_.deepest({*part}, {{*other, state_.place[*other]}}, path, options, context_, true);
   const double measured = found ? found->depth : 0;
   if (const auto region = verifier_.overlap_region(*part, *other); region && said.region) {
     const Normalization& to = assembly_.normalization;

@@ -23,8 +23,10 @@ class DepthStatements {
   /// Is the motion valid up to the pose that the step states?
   std::optional<std::string> wrong_valid_to(const PlanStep& said, const StepMotion& motion,
                                             const std::vector<PlacedPart>& fixed) const;
-  /// The same for a pair that a step moves past each other, with the other part at its current place.
-  std::optional<std::string> wrong(const PlanStepOverlap& said, const StepMotion& motion);
+  /// The same for a pair that a step moves past each other, with the other part at its current place. `held`: parts
+  /// past which the motion has been verified, which bounds the depth of their pairs.
+  std::optional<std::string> wrong(const PlanStepOverlap& said, const StepMotion& motion,
+                                   const std::vector<PartId>& held);
   /// The same for the parts that the plan takes for flexible by their shape, compared with the measurement made for the
   /// assembly.
   std::optional<std::string> wrong_flexible(const PlanAssembly& said) const;
