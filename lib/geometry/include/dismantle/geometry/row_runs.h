@@ -13,7 +13,7 @@ namespace dismantle::geometry {
 /// work and memory are in proportion to the runs that are added, not to the cells that these cover.
 class RowRuns {
  public:
-  using Bits = std::array<std::uint64_t, 2>;
+  using Bits = std::array<std::uint64_t, 2>;  ///< a set; element k is bit k % 64 of word k / 64
   RowRuns() = default;
   explicit RowRuns(std::size_t rows) : added_(rows) {}
 
