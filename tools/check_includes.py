@@ -42,7 +42,7 @@ ALLOWED = {
     "lib/session": BELOW_ENGINE | {"lib/statics", "lib/engine", "plugins/sdk", "plugins/host"},
     "plugins/testing": BELOW_ENGINE | {"lib/engine", "lib/samples", "plugins/sdk", "plugins/host"},
     "lib/bench": BELOW_ENGINE | {"lib/orders", "lib/process", "lib/engine", "lib/samples", "lib/session", "plugins/sdk", "plugins/host"},
-    "apps": BELOW_ENGINE | {"lib/statics", "lib/fasteners", "lib/tools", "lib/ordering", "lib/process", "lib/serve", "lib/book", "lib/orders", "lib/engine", "lib/samples", "lib/session", "lib/bench", "plugins/sdk", "plugins/host"},
+    "apps": BELOW_ENGINE | {"lib/statics", "lib/tools", "lib/ordering", "lib/process", "lib/serve", "lib/book", "lib/orders", "lib/engine", "lib/samples", "lib/session", "lib/bench", "plugins/sdk", "plugins/host"},
 }
 PLUGIN_MAY = {"lib/geometry", "plugins/sdk"}
 IMPORTER_MAY = PLUGIN_MAY | {"lib/process"}

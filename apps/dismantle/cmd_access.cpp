@@ -15,8 +15,8 @@
 #include "dismantle/plan_io/text_columns.h"
 #include "dismantle/preparation/name_pattern.h"
 #include "dismantle/session/objective.h"
+#include "dismantle/tools/repair_class.h"
 #include "plan_report.h"
-#include "repair_classes.h"
 #include "settings.h"
 #include "stopped.h"
 
@@ -38,10 +38,10 @@ struct AccessOptions {
 struct Answer {
   std::string name;
   PartAccess access;
-  std::vector<RepairClass> classes{};  ///< of the steps
-  RepairClass worst() const {
-    RepairClass all;
-    for (const RepairClass& c : classes) all.add(c);
+  std::vector<tools::RepairClass> classes{};  ///< of the steps
+  tools::RepairClass worst() const {
+    tools::RepairClass all;
+    for (const tools::RepairClass& c : classes) all.add(c);
     return all;
   }
   bool forced() const {
@@ -224,7 +224,7 @@ int access(const AccessOptions& options) {
     looking.progress("access", answers.size() + 1, units.size(), name);
     answers.push_back({name, routes ? routes->to(part) : access_as_planned(part, planned.disassembly, constraints)});
     for (const AccessStep& step : answers.back().access.steps)
-      answers.back().classes.push_back(repair_class(assembly, step.parts, step.forced));
+      answers.back().classes.push_back(tools::repair_class(assembly, step.parts, step.forced));
   }
   console.end_progress();
 

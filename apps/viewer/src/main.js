@@ -93,9 +93,9 @@ function start() {
 
 /** A page that shows this one in a frame is told which part is selected: that of `dismantle serve` marks parts. */
 function tellFrame(app) {
-  if (window.parent === window) return;
+  if (window.parent === window || !location.protocol.startsWith('http')) return;
   app.on(what => {
-    if (what === 'selection') window.parent.postMessage({dismantle: 'selection', part: app.model.parts[app.selected]?.name ?? null}, '*');
+    if (what === 'selection') window.parent.postMessage({dismantle: 'selection', part: app.model.parts[app.selected]?.name ?? null}, location.origin);
   });
 }
 

@@ -1,4 +1,4 @@
-#include "repair_classes.h"
+#include "dismantle/tools/repair_class.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include "dismantle/tools/access.h"
 #include "dismantle/tools/catalogue.h"
 
-namespace dismantle::app {
+namespace dismantle::tools {
 
 namespace {
 
@@ -16,12 +16,12 @@ using fasteners::Drive;
 using fasteners::Kind;
 
 bool fits_one(Kind kind, Drive drive, double size) {
-  tools::Fastener fastener;
+  Fastener fastener;
   fastener.kind = kind;
   fastener.drive = drive;
   fastener.size = size;
-  const std::vector<tools::Tool>& all = tools::standard_catalogue();
-  return std::any_of(all.begin(), all.end(), [&](const tools::Tool& tool) { return tools::fits(tool, fastener); });
+  const std::vector<Tool>& all = standard_catalogue();
+  return std::any_of(all.begin(), all.end(), [&](const Tool& tool) { return fits(tool, fastener); });
 }
 
 RepairClass class_of(const Part& part, double mm) {
@@ -60,11 +60,10 @@ void RepairClass::add(const RepairClass& other) {
 RepairClass repair_class(const Assembly& assembly, const std::vector<PartId>& leaving, bool forced) {
   if (forced) return {FastenerClass::neither, ToolClass::not_removable};
   RepairClass out;
-  // A component with its screws in it is not undone.
-  if (leaving.size() > 1) return out;
   const double mm = fasteners::millimetres_per_unit(assembly);
   for (const PartId id : leaving) out.add(class_of(assembly.parts[id], mm));
+  if (leaving.size() > 1 && out.fasteners != FastenerClass::none) out.tools = ToolClass::not_determined;
   return out;
 }
 
-}  // namespace dismantle::app
+}  // namespace dismantle::tools
