@@ -236,26 +236,6 @@ bool DirectedCheck::outside(const Placement& place, const Corners& moved) const 
   return !b_.bvh.inside(place * ((moved[0] + moved[1] + moved[2]) / 3));
 }
 
-/// True if the whole patch is in the exempt box, in its own assembled frame or in B's during the interval.
-bool DirectedCheck::exempt(const Interval& i, double margin, const Patch& patch) const {
-  if (limits_.exempt == nullptr) return false;
-  const auto inside = [&](const Corners& corners, const Pose& to_assembled, double inset) {
-    Aabb box = *limits_.exempt;
-    box.inflate(-inset);
-    return std::all_of(corners.begin(), corners.end(), [&](const Vec3& p) { return box.contains(to_assembled * p); });
-  };
-  if (inside(patch.p, a_.frame, 0)) return true;
-  return inside(placed(i.at0, patch.p), b_.frame, margin) && inside(placed(i.at1, patch.p), b_.frame, margin);
-}
-
-/// True if the patch is partly in the exempt box, in its own assembled frame, and larger than the border is wide.
-bool DirectedCheck::crosses_exempt(const Patch& patch) const {
-  if (limits_.exempt == nullptr || patch.radius() <= limits_.border) return false;
-  Aabb box;
-  for (const Vec3& p : patch.p) box.extend(a_.frame * p);
-  return box.overlaps(*limits_.exempt);
-}
-
 /// Certifies a patch for an interval, or adds it (or its pieces) to one of the lists. False: the check failed.
 bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule, List& same, List& later) {
   if (walls_) return settle_wall(i, id, later);
@@ -276,6 +256,10 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
       return true;
     }
     if (bent) (*unclear_)[patch.triangle] = margin;  // no other rule applies to bent motion
+  }
+  if (meets_exempt_only(i, margin, patch)) {
+    by_shrunken_copy_ = false;
+    return true;
   }
   if (bent) {  // too bent to be treated as straight
     later.push_back(id);

@@ -141,9 +141,11 @@ class DirectedCheck {
   bool clear(const Interval& i, double margin, const Corners& moved, bool& far);
   bool worth_a_test(const Interval& i, double margin, std::uint32_t triangle) const;
   bool outside(const Placement& place, const Corners& moved) const;
-  bool exempt(const Interval& i, double margin, const Patch& patch) const;
-  bool crosses_exempt(const Patch& patch) const;
   bool sides();
+  // exempt_box.cpp: the box without a depth limit
+  bool exempt(const Interval& i, double margin, const Patch& patch) const;
+  bool meets_exempt_only(const Interval& i, double margin, const Patch& patch) const;
+  bool crosses_exempt(const Patch& patch) const;
   // walls.cpp: if a part is open
   bool rests_at(double time);
   bool fail_at_wall(const Patch& patch, double time);
