@@ -1,5 +1,9 @@
 // Motions past an exempt box, in which the depth has no limit.
+#include "motion/exempt_box.h"
+
 #include <gtest/gtest.h>
+
+#include <array>
 
 #include "dismantle/geometry/pair_check.h"
 #include "dismantle/testing/shapes.h"
@@ -18,10 +22,11 @@ struct BlockAtRim {
   Aabb exempt;
 };
 
-BlockAtRim block_at_rim(const Vec3& origin, double overlap, double over, double nose_from, double nose_to) {
+BlockAtRim block_at_rim(const Vec3& origin, double overlap, double over, const std::array<double, 2>& nose, double side,
+                        double top) {
   const auto box = [&](Vec3 lo, Vec3 hi) { return shapes::box(origin + lo, origin + hi); };
-  Mesh plate = shapes::joined(box({0, 0, -1}, {10, 10, 0}), box({5, 4, -0.5}, {6, 5, 1.5}));
-  plate = shapes::joined(plate, box({-over, nose_from, 1}, {5.5, nose_to, 1.2}));
+  Mesh plate = shapes::joined(box({0, side + 0.1, -1}, {10, 9.9 - side, 0}), box({5, 4, -0.5}, {6, 5, 1.5}));
+  plate = shapes::joined(plate, box({-over, nose[0], 1}, {5.5, nose[1], 1.2}));
   Solid a(box({-2, 2, -1}, {overlap, 8, 0.5})), b(plate);
   const std::vector<Pose> up{a.frame, Pose{{0, 0, 2.5}, Eigen::Quaterniond::Identity()} * a.frame};
   Aabb around_a = a.box, around_b = b.box;
@@ -32,7 +37,7 @@ BlockAtRim block_at_rim(const Vec3& origin, double overlap, double over, double 
           std::move(b),
           std::move(forward),
           std::move(backward),
-          {origin + Vec3(-2 * overlap, 1.9, -1.1), origin + Vec3(2 * overlap, 8.1, 2 * overlap)}};
+          {origin + Vec3(-2 * overlap, side, -1.1), origin + Vec3(2 * overlap, 10 - side, top)}};
 }
 
 TEST(ExemptBox, WhatSticksOutOfItIsProvedWhereNothingIs) {
@@ -41,12 +46,15 @@ TEST(ExemptBox, WhatSticksOutOfItIsProvedWhereNothingIs) {
   int proved = 0, refused = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const Vec3 origin(rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(-9, 9));
-    const double overlap = rng.uniform(0.004, 0.1), over = rng.uniform(-3, 3) * overlap, from = rng.uniform(0, 9);
-    const double to = from + rng.uniform(0.3, 1);
-    const bool beside = to < 2 - 2 * tolerance || from > 8 + 2 * tolerance,
-               cuts = !beside && overlap + over > 2 * tolerance;
+    const double overlap = rng.uniform(0.004, 0.1);
+    // Odd: all faces that cut reach into the box, and cut beside it.
+    const bool across = trial % 2 == 1;
+    const double over = rng.uniform(-3, across ? 2 : 3) * overlap, from = across ? -1 : rng.uniform(0, 9);
+    const double to = across ? 11 : from + rng.uniform(0.3, 1), top = across ? rng.uniform(0.55, 0.8) : 0.3;
+    const bool beside = to < 2 - 2 * tolerance || from > 8 + 2 * tolerance;
+    const bool cuts = !beside && overlap + over > 2 * tolerance;
     if (!cuts && !beside && overlap + over > -tolerance) continue;  // about as deep as allowed
-    const BlockAtRim at = block_at_rim(origin, overlap, over, from, to);
+    const BlockAtRim at = block_at_rim(origin, overlap, over, {from, to}, across ? 3 : 1.8, top);
     const Limits limits{0, tolerance, &at.exempt, tolerance, overlap + tolerance};
     Budget budget{20'000, 2'000};
     const Finding found = check_pair(at.block, at.plate, at.forward, at.backward, limits, budget);
@@ -55,6 +63,42 @@ TEST(ExemptBox, WhatSticksOutOfItIsProvedWhereNothingIs) {
   }
   EXPECT_GT(proved, 15);
   EXPECT_GT(refused, 10);
+}
+
+/// Against points of the box outside of the inner one: none is in the solid, which is turned at random.
+TEST(ExemptBox, NothingOfASolidIsOutsideWhereItIsSaidToBeFree) {
+  Rng rng(43);
+  const auto point = [&](double size) {
+    return Vec3(rng.uniform(-size, size), rng.uniform(-size, size), rng.uniform(-size, size));
+  };
+  int free = 0, met = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const Pose turned{point(1),
+                      Eigen::Quaterniond(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1), 1).normalized()};
+    const Solid solid(shapes::moved(shapes::box({-1, -1, -0.2}, {1, 1, 0.2}), turned));
+    Aabb box, inner;
+    for (Aabb* b : {&box, &inner}) {
+      const Vec3 from = turned * point(1.4);
+      b->extend(from);
+      b->extend(from + point(b == &box ? 1 : 3));
+    }
+    if (!box.overlaps(inner)) continue;
+    const bool said = is_free_outside(solid, box, inner);
+    bool any = false;
+    for (int k = 0; k < 500; ++k) {
+      const Vec3 u = point(1), x = box.center() + 0.5 * u.cwiseProduct(box.size());
+      if (!inner.contains(x) && solid.bvh.inside(solid.frame.inverse() * x)) any = true;
+    }
+    EXPECT_FALSE(said && any) << trial;
+    ++(said ? free : met);
+    if (trial % 2 == 0) continue;
+    Aabb around;
+    around.extend(box);
+    around.inflate(0.1);
+    EXPECT_TRUE(is_free_outside(solid, box, around)) << trial;
+  }
+  EXPECT_GT(free, 30);
+  EXPECT_GT(met, 30);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The exempt box of the limits: what of a patch needs no proof, because the depth has no limit there.
+#include "exempt_box.h"
+
 #include <algorithm>
-#include <cmath>
 
 #include "dismantle/geometry/directed_check.h"
 
@@ -20,6 +21,25 @@ bool is_free(const Solid& solid, const Aabb& box) {
 
 }  // namespace
 
+bool is_free_outside(const Solid& solid, const Aabb& box, const Aabb& inner) {
+  Aabb rest = box;  // without the slabs that were looked at
+  for (int axis = 0; axis < 3; ++axis) {
+    if (rest.lo[axis] < inner.lo[axis]) {
+      Aabb below = rest;
+      below.hi[axis] = std::min(rest.hi[axis], inner.lo[axis]);
+      if (!is_free(solid, below)) return false;
+      rest.lo[axis] = inner.lo[axis];
+    }
+    if (rest.hi[axis] > inner.hi[axis]) {
+      Aabb above = rest;
+      above.lo[axis] = std::max(rest.lo[axis], inner.hi[axis]);
+      if (!is_free(solid, above)) return false;
+      rest.hi[axis] = inner.hi[axis];
+    }
+  }
+  return true;
+}
+
 /// True if the whole patch is in the exempt box, in its own assembled frame or in B's during the interval.
 bool DirectedCheck::exempt(const Interval& i, double margin, const Patch& patch) const {
   if (limits_.exempt == nullptr) return false;
@@ -32,33 +52,16 @@ bool DirectedCheck::exempt(const Interval& i, double margin, const Patch& patch)
   return inside(placed(i.at0, patch.p), b_.frame, margin) && inside(placed(i.at1, patch.p), b_.frame, margin);
 }
 
-/// True if all of B that the patch may meet in the interval is in the exempt box, in B's assembled frame: the box that
-/// the patch sweeps, without the exempt one, holds nothing of B. It settles patches that stick out of the exempt box
-/// where there is nothing, which would otherwise be divided until they are smaller than its border, at each instant.
+/// True if all of B that the patch may meet in the interval is in the exempt box, in B's assembled frame. It settles
+/// patches that stick out of the exempt box where there is nothing, which would otherwise be divided until they are
+/// smaller than its border, at each instant.
 bool DirectedCheck::meets_exempt_only(const Interval& i, double margin, const Patch& patch) const {
   if (limits_.exempt == nullptr) return false;
-  const Aabb& exempt = *limits_.exempt;
-  Aabb rest;
+  Aabb swept;
   for (const Placement& place : {i.at0, i.at1})
-    for (const Vec3& p : placed(place, patch.p)) rest.extend(b_.frame * p);
-  rest.inflate(margin + kRounding * (a_.box.size().norm() + b_.box.size().norm()));
-  if (!rest.overlaps(exempt)) return false;
-  // What sticks out, slab by slab; what is left of the swept box after all of them is in the exempt one.
-  for (int axis = 0; axis < 3; ++axis) {
-    if (rest.lo[axis] < exempt.lo[axis]) {
-      Aabb below = rest;
-      below.hi[axis] = exempt.lo[axis];
-      if (!is_free(b_, below)) return false;
-      rest.lo[axis] = exempt.lo[axis];
-    }
-    if (rest.hi[axis] > exempt.hi[axis]) {
-      Aabb above = rest;
-      above.lo[axis] = exempt.hi[axis];
-      if (!is_free(b_, above)) return false;
-      rest.hi[axis] = exempt.hi[axis];
-    }
-  }
-  return true;
+    for (const Vec3& p : placed(place, patch.p)) swept.extend(b_.frame * p);
+  swept.inflate(margin + kRounding * (a_.box.size().norm() + b_.box.size().norm()));
+  return swept.overlaps(*limits_.exempt) && is_free_outside(b_, swept, *limits_.exempt);
 }
 
 /// True if the patch is partly in the exempt box, in its own assembled frame, and larger than the border is wide.
