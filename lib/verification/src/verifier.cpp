@@ -50,7 +50,7 @@ Violation Verifier::Impl::violation(const Actor& a, const Actor& b, const verify
 Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, const RunContext& context)
     : assembly_overlaps(a.overlaps), options(o), bodies(a.parts.size()) {
   // From a hundredth of the tolerance, as for parts that slide on each other, in factors of about two. A tenth is worth
-  // the whole budget: such a motion is practically free of penetration.
+  // the whole budget: such a motion of parts that do not overlap is practically free of penetration.
   for (const double divisor : {100, 50, 20, 10, 5, 2, 1}) {
     if (divisor == 10) worthwhile = rungs.size();
     rungs.push_back(options.max_penetration / divisor);
@@ -214,8 +214,9 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
     sample_tells = seen.depth > verify::Limits{allowed, rungs[rung]}.at(seen.thickness);
   }
   for (;;) {
-    const bool decides = rung == last || rung == worthwhile;
-    verify::Budget budget = budget_for(forward.segments(), decides, allowed > options.max_penetration, &context);
+    const bool overlapping = allowed > options.max_penetration;  // a low rung above a deep overlap is worth little
+    const bool decides = rung == last || (rung == worthwhile && !overlapping);
+    verify::Budget budget = budget_for(forward.segments(), decides, overlapping, &context);
     const verify::Limits limits{allowed, rungs[rung], nullptr, options.max_penetration};
     Finding f = sample_tells ? seen : verify::check_pair(x, y, forward, backward, limits, budget);
     sample_tells = false;
