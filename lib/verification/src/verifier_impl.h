@@ -12,6 +12,7 @@
 #include "dismantle/geometry/swept_boxes.h"
 #include "dismantle/verification/verifier.h"
 #include "geometry_names.h"
+#include "pair_memory.h"
 
 namespace dismantle {
 
@@ -66,6 +67,7 @@ struct Verifier::Impl {
   std::size_t worthwhile = 0;  // rung that gets the whole budget although a wider one suffices
   std::vector<Body> bodies;
   std::vector<std::shared_ptr<const Mesh>> meshes;
+  mutable PairMemory<PairResult> known;
 };
 
 }  // namespace dismantle

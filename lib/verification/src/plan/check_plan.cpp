@@ -244,16 +244,16 @@ class Checker {
     const auto a = state_.read(plan_.disassembly[index].moves, found), b = state_.read(back.moves, found);
     if (!a || !b || a->path.size() + back.transfer != b->path.size() || a->moving.size() != b->moving.size())
       return false;
-    if (result_.step_penetration[index] + 2 * rounding() > verifier_.options().max_penetration) return false;
     const std::size_t last = b->path.size() - 1;
+    double most = 0;
     for (std::size_t i = 0; i < a->moving.size(); ++i) {
       const auto at = std::find(b->moving.begin(), b->moving.end(), a->moving[i]);
       if (at == b->moving.end()) return false;
       const auto k = static_cast<std::size_t>(at - b->moving.begin());
       for (std::size_t n = 0; n < a->path.size(); ++n)
-        if (state_.offset(a->moving[i], a->path[n][i], b->path[last - n][k]) > rounding()) return false;
+        most = std::max(most, state_.offset(a->moving[i], a->path[n][i], b->path[last - n][k]));
     }
-    return true;
+    return most <= rounding() && result_.step_penetration[index] + 2 * most <= verifier_.options().max_penetration;
   }
 
   /// Algorithm 3: each part comes from the layout, or from any pose if there is no layout. Moving parts are checked
