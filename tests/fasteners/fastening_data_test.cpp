@@ -32,8 +32,8 @@ TEST(FasteningsOfRealFiles, ScrewsOfAnActuator) {
   std::vector<std::unique_ptr<TriangleBvh>> surfaces;
   for (const Part& part : assembly.parts) surfaces.push_back(std::make_unique<TriangleBvh>(*part.mesh));
   const auto all = fasteners::fastenings_of(
-      assembly, fasteners::shapes_of(assembly, context), [&](PartId id) -> const TriangleBvh& { return *surfaces[id]; },
-      context);
+      assembly, fasteners::fastener_shapes(assembly, context),
+      [&](PartId id) -> const TriangleBvh& { return *surfaces[id]; }, context);
   std::map<std::string, int> texts;
   int in_lock_nuts = 0;
   for (const auto& f : all) {

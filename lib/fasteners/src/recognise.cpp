@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
+#include <string>
 
 #include "dismantle/executor.h"
 #include "dismantle/geometry/congruent_parts.h"
@@ -96,6 +98,21 @@ PartKind combined(const Shape& shape, const NameSays& name) {
               fmt::format("name: '{}'; the shape ({}) says {}: they disagree", name.reason, shape.reason, by_shape));
 }
 
+double pitch_of(std::string_view size) {
+  const std::string_view name = size.substr(0, size.find('x'));
+  const std::span<const Thread> all = threads();
+  const auto thread = std::find_if(all.begin(), all.end(), [&](const Thread& t) { return name == t.name; });
+  if (thread == all.end()) return 0;
+  // Two numbers after the diameter are pitch and length; a single small one is the pitch of a fine thread (name.cpp).
+  double stated = 0;
+  if (name.size() < size.size() && !thread->inch) {
+    const std::string rest(size.substr(name.size() + 1));
+    const double first = std::strtod(rest.c_str(), nullptr);
+    if (first > 0 && (rest.find('x') != std::string::npos || first <= 0.3 * thread->diameter)) stated = first;
+  }
+  return stated > 0 ? stated : thread->pitch;
+}
+
 double millimetres_per_unit(const Assembly& assembly) {
   const double metres = assembly.unit.empty() ? 1e-3 : metres_in(assembly.unit);
   return 1000 * metres / assembly.normalization.scale;
@@ -126,11 +143,16 @@ static void join_lock_nuts(const Assembly& assembly, std::vector<Shape>& shapes)
   }
 }
 
-std::vector<Shape> shapes_of(const Assembly& assembly, const RunContext& context) {
+/// The shapes of the parts for which `wanted` is true, and of what is congruent with one of them.
+template <class Wanted>
+static std::vector<Shape> shapes_where(const Assembly& assembly, const Wanted& wanted, const RunContext& context) {
   const auto placements = geometry::find_congruent(assembly.parts);
+  std::vector<bool> asked(placements.size(), false);
+  for (std::size_t i = 0; i < placements.size(); ++i)
+    if (wanted(assembly.parts[i])) asked[placements[i].original] = true;
   std::vector<std::size_t> originals;
   for (std::size_t i = 0; i < placements.size(); ++i)
-    if (placements[i].original == i) originals.push_back(i);
+    if (asked[i]) originals.push_back(i);
   const double mm = millimetres_per_unit(assembly);
   std::vector<Shape> found(originals.size());
   const auto look = [&](std::size_t k) {
@@ -144,6 +166,10 @@ std::vector<Shape> shapes_of(const Assembly& assembly, const RunContext& context
   stop_if_asked(context, "recognising kinds of parts");
   std::vector<Shape> out;
   for (std::size_t i = 0; i < placements.size(); ++i) {
+    if (!asked[placements[i].original]) {
+      out.emplace_back().reason = "not looked at";
+      continue;
+    }
     const auto at = std::lower_bound(originals.begin(), originals.end(), placements[i].original) - originals.begin();
     Shape shape = found[static_cast<std::size_t>(at)];
     shape.axis = placements[i].pose.q * shape.axis;
@@ -157,6 +183,20 @@ std::vector<Shape> shapes_of(const Assembly& assembly, const RunContext& context
     if (auto as_stated = shape_as(*kind, *part.mesh, mm)) out[part.id] = std::move(*as_stated);
   }
   return out;
+}
+
+std::vector<Shape> shapes_of(const Assembly& assembly, const RunContext& context) {
+  return shapes_where(
+      assembly, [](const Part&) { return true; }, context);
+}
+
+std::vector<Shape> fastener_shapes(const Assembly& assembly, const RunContext& context) {
+  const auto may_fasten = [](const Part& part) {
+    if (!part.kind) return true;
+    const auto kind = kind_from_string(part.kind->kind);
+    return !kind || *kind == Kind::screw || *kind == Kind::nut;
+  };
+  return shapes_where(assembly, may_fasten, context);
 }
 
 /// The volume of the largest body of each use of a product that has several, by the id of that use.

@@ -58,8 +58,20 @@ std::vector<Fastening> found_in(const Assembly& assembly) {
   std::vector<std::unique_ptr<TriangleBvh>> surfaces;
   for (const Part& part : assembly.parts) surfaces.push_back(std::make_unique<TriangleBvh>(*part.mesh));
   const RunContext context;
-  return fastenings_of(
-      assembly, shapes_of(assembly, context), [&](PartId id) -> const TriangleBvh& { return *surfaces[id]; }, context);
+  const SurfaceOf surface = [&](PartId id) -> const TriangleBvh& { return *surfaces[id]; };
+  auto out = fastenings_of(assembly, fastener_shapes(assembly, context), surface, context);
+  // Law: other parts' shapes are not needed.
+  const auto all = fastenings_of(assembly, shapes_of(assembly, context), surface, context);
+  EXPECT_EQ(out.size(), all.size());
+  for (std::size_t i = 0; i < std::min(out.size(), all.size()); ++i) {
+    EXPECT_EQ(out[i].screw, all[i].screw);
+    EXPECT_EQ(out[i].clamps, all[i].clamps);
+    EXPECT_EQ(out[i].into, all[i].into);
+    EXPECT_EQ(out[i].only, all[i].only);
+    EXPECT_EQ(out[i].nut, all[i].nut);
+    EXPECT_EQ(out[i].faults.size(), all[i].faults.size());
+  }
+  return out;
 }
 
 /// By name of the screw, in words.

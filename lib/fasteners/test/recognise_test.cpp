@@ -141,6 +141,20 @@ TEST(RecogniseKinds, BodiesOfAMotorAreNoMotors) {
   }
 }
 
+TEST(PitchOf, IsThatOfTheCoarseThreadOrTheOneStated) {
+  for (const auto& [size, pitch] : std::vector<std::pair<std::string, double>>{{"M6x14", 1},
+                                                                               {"M3", 0.5},
+                                                                               {"M2.5x8", 0.45},
+                                                                               {"M8x1", 1},
+                                                                               {"M8x1x20", 1},
+                                                                               {"M8x3", 1.25},
+                                                                               {"1/4-20x0.75", 1.27},
+                                                                               {"6002", 0},
+                                                                               {"8x5x1", 0},
+                                                                               {"", 0}})
+    EXPECT_NEAR(pitch_of(size), pitch, 1e-9) << size;
+}
+
 // A bolt and a nut of no known size: what their names say they are gives their shapes an axis, a shank and a hole.
 TEST(RecogniseKinds, BoltsAndNutsByNameHaveAnAxis) {
   std::mt19937_64 random(57);
@@ -150,7 +164,12 @@ TEST(RecogniseKinds, BoltsAndNutsByNameHaveAnAxis) {
     assembly.parts.push_back(part_of(1, named ? "nut" : "b", placed(nut(polygon(4, 20), 7.3, 3), random, 1)));
     assembly.parts.push_back(part_of(2, named ? "lock nut" : "c", placed(ring(20, 7.3, 3), random, 1)));
     recognise_kinds(assembly, RunContext{});
-    const std::vector<Shape> shapes = shapes_of(assembly, RunContext{});
+    const std::vector<Shape> shapes = shapes_of(assembly, RunContext{}), few = fastener_shapes(assembly, RunContext{});
+    for (const Part& part : assembly.parts) {
+      const bool fastens = part.kind->kind == "screw" || part.kind->kind == "nut";
+      EXPECT_EQ(few[part.id].reason, fastens ? shapes[part.id].reason : "not looked at") << part.name;
+      EXPECT_EQ(few[part.id].height, fastens ? shapes[part.id].height : 0) << part.name;
+    }
     EXPECT_EQ(shapes[0].kind == Kind::screw, named);
     EXPECT_EQ(shapes[1].kind == Kind::nut, named);
     EXPECT_NE(shapes[2].kind, Kind::nut);  // a round one may be the ring of another nut

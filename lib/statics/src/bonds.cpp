@@ -45,7 +45,7 @@ Bonds::Bonds(const Assembly& assembly) : assembly_(assembly), screwed_(assembly.
 
 void Bonds::add_threads() {
   const RunContext context;  // one thread, to the end
-  const std::vector<fasteners::Shape> shapes = fasteners::shapes_of(assembly_, context);
+  const std::vector<fasteners::Shape> shapes = fasteners::fastener_shapes(assembly_, context);
   std::vector<std::unique_ptr<const TriangleBvh>> surfaces(assembly_.parts.size());
   const fasteners::SurfaceOf surface = [&](PartId id) -> const TriangleBvh& {
     const Part& part = assembly_.parts[id];

@@ -240,7 +240,7 @@ void FastenerMemo::find_fastenings() const {
   std::call_once(fastenings_once_, [&] {
     const std::size_t parts = assembly_.parts.size();
     const RunContext context;
-    const auto shapes = fasteners::shapes_of(assembly_, context);
+    const auto shapes = fasteners::fastener_shapes(assembly_, context);
     fastenings_ = fasteners::fastenings_of(
         assembly_, shapes, [&](PartId id) -> const TriangleBvh& { return surface(id); }, context);
     patterns_ = fasteners::patterns_of(assembly_, fastenings_, shapes);

@@ -43,7 +43,7 @@ void add_fastenings(const Assembly& assembly, const std::function<const Triangle
                     AssemblyCheck& check, const RunContext& context) {
   const auto is_screw = [](const Part& part) { return part.kind && part.kind->kind == "screw"; };
   if (std::none_of(assembly.parts.begin(), assembly.parts.end(), is_screw)) return;
-  const auto shapes = fasteners::shapes_of(assembly, context);
+  const auto shapes = fasteners::fastener_shapes(assembly, context);
   std::map<std::tuple<std::string, std::string>, std::size_t> known;  // size, words
   std::map<std::tuple<FasteningProblem, std::string, std::string>, std::size_t>
       faults;  // problem, size, size of the nut
