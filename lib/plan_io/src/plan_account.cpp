@@ -110,7 +110,12 @@ void tell_parts(const Plan& plan, PlanAccount& out) {
   if (const std::size_t kept = count_of(a.components, [](const PlanComponent& c) { return c.kept; }); kept > 0)
     out.assumed.push_back(fmt::format("{} of several bodies: one unit each", text::counted(kept, "product")));
   const InputFrame frame = input_frame(plan);
-  if (!frame.unit_known) out.assumed.push_back("the files name no unit");
+  if (!frame.unit_known) {
+    const auto has_size = [](const PlanPart& p) { return p.kind && !p.kind->size.empty(); };
+    out.assumed.push_back(count_of(a.parts, has_size) > 0
+                              ? "the files name no unit: sizes of fasteners, and tools, are for mm"
+                              : "the files name no unit");
+  }
   out.assumed.push_back(fmt::format("drawn with {} up", axis_text(frame.up)));
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "advice.h"
+#include "dismantle/fasteners/recognise.h"
 #include "dismantle/tools/two_tools.h"
 #include "order_notes.h"
 #include "tool_picture.h"
@@ -60,10 +61,7 @@ class Judge {
     if (!driven.size.empty()) data["size"] = driven.size;
     if (is_turned(driven) && has_drive(driven)) data["drive"] = drive_text(driven.fastener);
     add_fastening(memo_, driven, text, data);
-    if (memo_.assembly().unit.empty()) {
-      data["assumed"] = "mm";
-      text += " (The input states no unit; mm is assumed.)";
-    }
+    if (memo_.assembly().unit.empty()) data["assumed"] = "mm";  // said once for the whole plan
     verdict_.notes.push_back({fmt::format("tool_access.{}", kind), std::move(text), data.dump()});
   }
   void look_at(const Driven& driven, const Pose& pose) {
@@ -318,6 +316,12 @@ class Judge {
                                    from_text(a.turning.axis, q_.up));
     if (use.swing > 0) text += fmt::format(", {:.0f} degrees at a time", use.swing * 180 / std::numbers::pi);
     json data = place_of(turned, a.turning);
+    if (const double pitch = fasteners::pitch_of(turned.size); pitch > 0) {
+      const int turns = std::max(1, static_cast<int>(std::lround(a.turning.fastener.travel / pitch)));
+      text += fmt::format(", {} {} of {:.4g} mm", turns, turns == 1 ? "turn" : "turns", pitch);
+      data["pitch"] = pitch;
+      data["turns"] = turns;
+    }
     if (&turned != &driven) data["turned"] = name(turned);
     if (a.task.held != nullptr) {
       const Driven& held = *a.task.held;

@@ -68,6 +68,12 @@ TEST(ToolAccess, ScaledCopiesHaveTheToolOfTheirTrueSize) {
   const StepVerdict v = judge(ToolAccess(), scene.assembly(), {screw_id}, {plate_id}, -Vector3d::UnitZ());
   EXPECT_EQ(data_of(v, "tool")["tool"], "hex_key_5");
   EXPECT_EQ(data_of(v, "tool")["size"], "M6x20");
+  // A thread bears over two diameters: 12 mm of pitch 1.
+  EXPECT_EQ(data_of(v, "tool")["pitch"], 1);
+  EXPECT_EQ(data_of(v, "tool")["turns"], 12);
+  EXPECT_TRUE(std::any_of(v.notes.begin(), v.notes.end(), [](const StepNote& note) {
+    return note.text.find(", 12 turns of 1 mm") != std::string::npos;
+  }));
 }
 
 TEST(ToolAccess, SaysWhatWasNotChecked) {
@@ -78,6 +84,7 @@ TEST(ToolAccess, SaysWhatWasNotChecked) {
   StepVerdict v = judge(ToolAccess(), assembly, {screw_id}, {plate_id}, -Vector3d::UnitZ());
   EXPECT_EQ(v.cost, 0);
   EXPECT_EQ(data_of(v, "tool")["assumed"], "mm");
+  for (const StepNote& note : v.notes) EXPECT_EQ(note.text.find("assumed"), std::string::npos) << note.text;
   // A hundred times as large: no table has it.
   for (Mesh& mesh : scene.meshes)
     for (Vector3d& p : mesh.vertices) p *= 100;
