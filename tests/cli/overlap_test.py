@@ -1,5 +1,6 @@
 """Assemblies as they come from CAD, whose parts overlap: what comes apart, what is forced, and what the plan says of it."""
 import json
+import math
 
 from program import CliTest
 
@@ -13,6 +14,28 @@ SAMPLES = [
     ("o_ring", 0, "uniform_interference"),
     ("part_in_solid", 1, "inside"),
 ]
+
+
+def turned(rings, closed, around=48):
+    """OBJ of a surface through rings (height, radius, corners; 0 corners: round); closed: from the last to the first, else
+    with flat ends."""
+    points = []
+    for z, r, corners in rings:
+        for i in range(around):
+            a, s = 2 * math.pi * i / around, 2 * math.pi / corners if corners else 0
+            at = r / math.cos((a + s / 2) % s - s / 2) if corners else r
+            points.append((at * math.cos(a), at * math.sin(a), z))
+    faces = []
+    for k in range(len(rings) if closed else len(rings) - 1):
+        a, b = k * around + 1, (k + 1) % len(rings) * around + 1
+        for i, j in ((i, (i + 1) % around) for i in range(around)):
+            faces += [(a + i, a + j, b + j), (a + i, b + j, b + i)]
+    if not closed:
+        points += [(0, 0, rings[0][0]), (0, 0, rings[-1][0])]
+        top = (len(rings) - 1) * around + 1
+        for i, j in ((i, (i + 1) % around) for i in range(around)):
+            faces += [(len(points) - 1, 1 + j, 1 + i), (top + i, top + j, len(points))]
+    return "".join("v %.9g %.9g %.9g\n" % p for p in points) + "".join("f %d %d %d\n" % f for f in faces)
 
 
 class Overlap(CliTest):
@@ -132,4 +155,19 @@ class Overlap(CliTest):
         named = [o for step in plan["disassembly"] for o in step.get("overlaps", [])]
         self.assertEqual({p["name"]: p.get("flexible") for p in plan["assembly"]["parts"]}["ring"], "declared")
         self.assertTrue(any("ring" in o["pair"] and o["depth"] > o["assembled"] for o in named), named)
+        self.run_program("verify", "out/plan.json", "-q", status=0)
+
+    def test_a_screw_that_cuts_deeper_says_that_it_cuts_its_thread(self):
+        """A screw with a neck below its head; the mouth of its bore is narrower than where its thread is."""
+        screw = [(-16, 3, 0), (-6, 3, 0), (-6, 2.4, 0), (0, 2.4, 0), (0, 5, 6), (4, 5, 6)]
+        block = [(-22, 2.75, 0), (-22, 10, 4), (0, 10, 4), (0, 2.6, 0), (-4, 2.6, 0), (-4, 2.75, 0)]
+        self.write("in/screw_M6x16.obj", turned(screw, False))
+        self.write("in/block.obj", turned(block, True))
+        words = "'screw_M6x16' cuts its thread, 0.4 mm deep, into 'block' (0.25 mm when assembled)"
+        self.write("run.yaml", "schema: 1\nconstraints: {overlap: [{parts: [screw_M6x16, block], depth: 0.45}]}\n")
+        done = self.run_program("plan", "in", "-o", "out", "-c", "run.yaml", "--unit", "mm", "--threads", "1", status=0)
+        self.assertIn(words, done.stdout + done.stderr)
+        self.assertIn(words, self.read("out", "index.html"))
+        self.run_program("book", "out/plan.json", "-o", "book.html", "-q", status=0)
+        self.assertIn("cuts its thread, 0.4 mm deep", self.read("book.html"))
         self.run_program("verify", "out/plan.json", "-q", status=0)
