@@ -105,6 +105,10 @@ std::string hindrance_text(const Assembly& assembly, const MotionDepth& deepest,
   const double to_input = 1 / assembly.normalization.scale;
   const Vec3 travel = path.back().t - path.front().t;
   const double excess = deepest.excess() * to_input;
+  if (deepest.excess() <= tolerance)
+    return fmt::format("no proof that '{}' stays out of '{}' was found within the budget, and no point deeper than {}",
+                       moves.name, stays.name,
+                       deepest.allowed > 0 ? "allowed" : fmt::format("{:.2g}", tolerance * to_input));
   if (kind_of(assembly, deepest, tolerance) == Kind::pressed)
     return fmt::format("pressed: '{}' and '{}' are in each other by {:.2g} when assembled, and by {:.2g} on the way",
                        moves.name, stays.name, assembly.overlap_of(deepest.part, deepest.other)->depth * to_input,

@@ -38,6 +38,15 @@ TEST(ForcedReason, AShallowOneIsASnapAndADeepOneIsNot) {
   EXPECT_EQ(deep.line, "");
 }
 
+/// A motion that was refused for want of a proof cuts nothing: nothing would have to bend by 1e-15.
+TEST(ForcedReason, WhatIsNoDeeperThanAllowedIsUnproved) {
+  for (const double depth : {-2e-15, 0.0, 1e-15, 0.5 * kTolerance, kTolerance}) {
+    const Said none = said(two_blocks(), depth);
+    EXPECT_NE(none.what.find("no proof that 'block' stays out of 'housing'"), std::string::npos) << none.what;
+    EXPECT_EQ(none.line, "");
+  }
+}
+
 TEST(ForcedReason, LengthsAreThoseOfTheInput) {
   Assembly assembly = two_blocks();
   assembly.normalization.scale = 0.1;

@@ -191,7 +191,9 @@ std::optional<MotionDepth> MotionDepthMeter::deepest(const std::vector<PartId>& 
       if (worst && worst->excess() > options.stop_above) return worst;
     }
   }
-  if (worst) worst->proved = proved && !context.should_stop();  // a measurement may have been cut short
+  if (!worst) return worst;
+  worst->depth = std::max(0.0, worst->depth);        // a point on the surface, but for rounding
+  worst->proved = proved && !context.should_stop();  // a measurement may have been cut short
   return worst;
 }
 

@@ -52,7 +52,7 @@ Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, const RunContext& conte
   // From a hundredth of the tolerance, as for parts that slide on each other, in factors of about two. A tenth is worth
   // the whole budget: such a motion of parts that do not overlap is practically free of penetration.
   // The last is less than the tolerance by more than rounding: so much the poses of a reversed step may be off.
-  for (const double divisor : {100., 50., 20., 10., 5., 2., 1 + 1e-5}) {
+  for (const double divisor : {100., 50., 20., 10., 5., 2., 1 + 1e-7}) {
     if (divisor == 10) worthwhile = rungs.size();
     rungs.push_back(options.max_penetration / divisor);
   }

@@ -18,7 +18,7 @@ using shapes::Vec3;
 
 MotionDepth deepest(const Assembly& assembly, const std::vector<PlacedPart>& fixed, const Path& path,
                     MotionDepthOptions options = {}) {
-  const Verifier verifier(assembly, VerifyOptions{});
+  const Verifier verifier(assembly, {.max_penetration = 0.01});
   MotionDepthMeter meter(assembly, verifier);
   const RunContext context;
   const auto found = meter.deepest({0}, fixed, path, options, context);

@@ -234,7 +234,7 @@ TEST(Verifier, BuriedPlateSlidesOutAlongItsWalls) {
   EXPECT_NEAR(depth, 0.5 * width, 1e-5);
   const MotionCheck c = check(plate, walls, {Pose{}, shift({0.003, 2, 0.002})}, 0.01, depth);
   EXPECT_TRUE(c.valid);
-  EXPECT_LE(c.max_penetration, 0.002);
+  EXPECT_LE(c.max_penetration, 0.01);  // above so deep an overlap no lower bound is worth its proof
   EXPECT_LT(c.tests, 900'000u) << "pieces beside a ridge are verified whole: without that it takes 1.2 million";
 }
 

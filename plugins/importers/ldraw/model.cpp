@@ -167,15 +167,25 @@ class Walk {
 
   /// Two parts cannot be in one place, so the line is a slip of the author, and the part is there once.
   void add_repeated(const Reference& r, const Place& place) {
-    const std::string& description = library_.find(r.name)->file->description;
-    RawPart part = raw(description.empty() ? r.name : description, place, r.name);
+    RawPart part = raw(name_of(r.name, *library_.find(r.name)->file), place, r.name);
     part.problem = "the model has the same line twice: the same part in the same place";
     part.by_meaning = true;
     push(std::move(part));
   }
 
+  /// Description of a part; of a file that only says where a part has moved to, that of the part.
+  std::string name_of(const std::string& key, const LdrawFile& file) {
+    const LdrawFile* of = &file;
+    std::optional<Found> next;
+    for (std::size_t hops = 0; of->description.starts_with("~Moved to") && of->references.size() == 1; ++hops) {
+      if (hops == kDeepest || !(next = library_.find(of->references.front().name))) break;
+      of = next->file;
+    }
+    return of->description.empty() ? key : of->description;
+  }
+
   std::uint32_t add_part(const std::string& key, const Found& found, const Place& place) {
-    RawPart part = raw(found.file->description.empty() ? key : found.file->description, place, key);
+    RawPart part = raw(name_of(key, *found.file), place, key);
     const PartMesh& shape = meshes_.of(key);
     part.problem = shape.problem;
     const double volume = place.placement.linear.determinant();

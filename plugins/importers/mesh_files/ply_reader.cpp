@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 #include "dismantle/errors.h"
 #include "dismantle/geometry/mesh_measure.h"
@@ -85,6 +86,10 @@ class PlyReader {
       }
     }
     if (part.mesh.vertices.empty()) fail("no vertices");
+    for (std::vector<std::uint32_t>& corners : std::exchange(before_vertices_, {})) {
+      corners_ = std::move(corners);
+      add_face(part.mesh);
+    }
     for (const auto& t : part.mesh.triangles)
       for (const auto v : t)
         if (v >= part.mesh.vertices.size())
@@ -253,6 +258,10 @@ class PlyReader {
 
   void add_face(Mesh& mesh) {
     if (corners_.size() < 3) return;
+    if (mesh.vertices.empty()) {  // the vertices come after the faces
+      before_vertices_.push_back(corners_);
+      return;
+    }
     points_.clear();
     if (corners_.size() > 3)
       for (const auto v : corners_) {
@@ -273,6 +282,7 @@ class PlyReader {
   Format format_ = Format::text;
   char line_end_ = '\0';  // of the header; not known before its first line
   std::vector<Element> elements_;
+  std::vector<std::vector<std::uint32_t>> before_vertices_;  // faces that wait for their vertices
   std::size_t header_lines_ = 0;
   std::string where_, word_;
   std::vector<std::uint32_t> corners_;

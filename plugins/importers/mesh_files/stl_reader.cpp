@@ -22,6 +22,7 @@ struct BinaryHeader {
   std::uint32_t triangles = 0;  ///< as stated
   bool says_solid = false;      ///< starts like a text file (many binary files also do)
   bool printable = false;       ///< nothing but text at its beginning
+  bool utf16 = false;           ///< starts with the byte order mark of UTF-16
   bool fits() const { return size >= kHeader && size == kHeader + kRecord * std::uint64_t{triangles}; }
 };
 
@@ -42,6 +43,7 @@ std::optional<BinaryHeader> header_of(const std::filesystem::path& file) {
   header.printable = std::ranges::all_of(start, [](unsigned char c) {
     return c >= 0x20 ? c != 0x7F : std::string_view("\t\n\v\f\r").find(static_cast<char>(c)) != std::string_view::npos;
   });
+  header.utf16 = start.starts_with("\xFF\xFE") || start.starts_with("\xFE\xFF");
   if (start.starts_with("\xEF\xBB\xBF")) start.remove_prefix(3);
   start.remove_prefix(std::min(start.find_first_not_of(" \t\n\v\f\r"), start.size()));
   header.says_solid = lower_case(start.substr(0, 5)) == "solid";
@@ -58,6 +60,8 @@ std::vector<RawPart> read_binary(const std::filesystem::path& file, const Binary
     throw InputError(name, fmt::format("{} bytes are too short for an STL file: it is cut off or no STL", header.size));
   if (header.printable && !header.fits())
     throw InputError(name, "this is no STL file: text that does not begin with 'solid'");
+  if (header.utf16 && !header.fits())
+    throw InputError(name, "this is text in UTF-16, which STL does not have: save it as ASCII or UTF-8");
   const std::uint64_t expected = kHeader + kRecord * std::uint64_t{header.triangles};
   if (header.size < expected)
     throw InputError(name, fmt::format("cut off: its header states {} triangles, which take {} bytes, but it has {}",

@@ -69,6 +69,21 @@ TEST_F(Ldraw, PartsHaveTheirPlaceSizeAndColour) {
   EXPECT_NEAR(signed_volume(parts[1].mesh), 2 * 8 * 4 * 9.6, 1e-9);
 }
 
+/// The library keeps old numbers as files that only refer to the new one: the part has the name of that.
+TEST_F(Ldraw, PartsThatHaveMovedHaveTheirName) {
+  const std::string at = "1 16 0 0 0 1 0 0 0 1 0 0 0 1 ";
+  write("library/parts/old.dat", "0 ~Moved to brick\n0 !LDRAW_ORG Part\n" + at + "brick.dat\n");
+  write("library/parts/older.dat", "0 ~Moved to old\n0 !LDRAW_ORG Part\n" + at + "old.dat\n");
+  write("library/parts/ring.dat", "0 ~Moved to round\n0 !LDRAW_ORG Part\n0 BFC CERTIFY CCW\n" + box(20, 24, 10));
+  const auto parts = read("0 Tower\n" + at + "old.dat\n1 16 100 0 0 1 0 0 0 1 0 0 0 1 older.dat\n" +
+                          "1 16 200 0 0 1 0 0 0 1 0 0 0 1 ring.dat\n");
+  ASSERT_EQ(parts.size(), 3u);
+  EXPECT_EQ(parts[0].name, "Brick 1 x 1");
+  EXPECT_EQ(parts[1].name, "Brick 1 x 1");
+  EXPECT_EQ(parts[2].name, "~Moved to round") << "it refers to nothing";
+  EXPECT_NEAR(signed_volume(parts[1].mesh), 8 * 4 * 9.6, 1e-9);
+}
+
 TEST_F(Ldraw, ALineThatIsWrittenTwiceIsOnePart) {
   const std::string line = "1 4 0 0 0 1 0 0 0 1 0 0 0 1 brick.dat\n",
                     other = "1 4 0 0 0 1 0 0 0 1 0 0 0 -1 brick.dat\n";

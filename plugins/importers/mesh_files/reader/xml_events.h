@@ -2,9 +2,12 @@
 #pragma once
 
 #include <expat.h>
+#include <iconv.h>
 
+#include <algorithm>
 #include <exception>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -45,6 +48,8 @@ class XmlEvents {
             if (events.end) events.end();
           });
         });
+    XML_SetUnknownEncodingHandler(
+        parser_, [](void*, const char* name, XML_Encoding* encoding) { return single_byte(name, *encoding); }, nullptr);
     XML_SetStartNamespaceDeclHandler(parser_, [](void* self, const char* prefix, const char* uri) {
       static_cast<XmlEvents*>(self)->prefixes[prefix ? prefix : ""] = uri ? uri : "";
     });
@@ -68,6 +73,30 @@ class XmlEvents {
   unsigned long line() const { return XML_GetCurrentLineNumber(parser_); }
 
  private:
+  /// Fills the table of an encoding with one byte for each character, such as windows-1252, as iconv has it. Others
+  /// than these, and those that expat knows, are refused as unknown.
+  static int single_byte(const char* name, XML_Encoding& encoding) {
+    const iconv_t tool = ::iconv_open("UCS-4BE", name);
+    if (tool == reinterpret_cast<iconv_t>(-1)) return XML_STATUS_ERROR;
+    bool plain = true;  // ASCII is itself: else it is no encoding of one byte, or one that no XML is written in
+    for (int byte = 0; byte < 256; ++byte) {
+      char from = static_cast<char>(byte), wide[4] = {};
+      char *in = &from, *out = wide;
+      std::size_t left = 1, room = sizeof wide;
+      ::iconv(tool, nullptr, nullptr, nullptr, nullptr);
+      const bool done = ::iconv(tool, &in, &left, &out, &room) != static_cast<std::size_t>(-1) && room == 0;
+      encoding.map[byte] = -1;
+      if (done)
+        encoding.map[byte] = (static_cast<unsigned char>(wide[1]) << 16) | (static_cast<unsigned char>(wide[2]) << 8) |
+                             static_cast<unsigned char>(wide[3]);
+      if (byte < 0x80) plain = plain && encoding.map[byte] == byte;
+    }
+    ::iconv_close(tool);
+    // Of an encoding of several bytes the bytes that begin a character stand for none.
+    const auto undefined = std::count(std::begin(encoding.map) + 0x80, std::end(encoding.map), -1);
+    return plain && undefined <= 0x20 ? XML_STATUS_OK : XML_STATUS_ERROR;
+  }
+
   void begin(std::string_view name, const char** attributes) {
     XmlTag tag;
     const auto bar = name.rfind('|');

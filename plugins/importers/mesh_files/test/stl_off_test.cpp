@@ -80,6 +80,16 @@ TEST(StlReader, StatesWhatIsMissing) {
   EXPECT_EQ(count_stl_triangles(file), 12u);
 }
 
+TEST(StlReader, NamesTextInUtf16) {
+  const TempFolder folder;
+  for (const bool big : {false, true}) {
+    std::string wide = big ? "\xFE\xFF" : "\xFF\xFE";
+    for (const char c : testing::text_stl(kBox, "x")) (wide += big ? '\0' : c) += big ? c : '\0';
+    const auto file = folder.write("wide.stl", wide);
+    EXPECT_NE(input_error([&] { read_stl(file); }).find("text in UTF-16"), std::string::npos);
+  }
+}
+
 TEST(StlReader, RefusesCoordinatesThatAreNotFinite) {
   const TempFolder folder;
   Mesh bad = kBox;
@@ -134,6 +144,27 @@ TEST(PlyReader, TriangleStripsAndLineEndsOfOldMacs) {
         EXPECT_EQ(parts[0].mesh.triangles.size(), 12u);
         EXPECT_DOUBLE_EQ(signed_volume(parts[0].mesh), 6) << binary << type << line_end.size();
       }
+}
+
+/// A box of quadrilaterals, or of triangles and quadrilaterals, whose list comes before that of the vertices.
+TEST(PlyReader, FacesMayComeBeforeVertices) {
+  const TempFolder folder;
+  const std::string head = "ply\nformat ascii 1.0\n", end = "end_header\n",
+                    vertex = "element vertex 8\nproperty float x\nproperty float y\nproperty float z\n",
+                    corners = "0 0 0\n1 0 0\n0 2 0\n1 2 0\n0 0 3\n1 0 3\n0 2 3\n1 2 3\n",
+                    list = "property list uchar int vertex_indices\n", first = "3 0 2 3\n3 0 3 1\n",
+                    whole = "4 0 2 3 1\n", others = "4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n";
+  for (const bool mixed : {false, true}) {
+    const std::string face = (mixed ? "element face 7\n" : "element face 6\n") + list,
+                      faces = (mixed ? first : whole) + others;
+    for (const std::string& text :
+         {head + vertex + face + end + corners + faces, head + face + vertex + end + faces + corners}) {
+      const auto parts = read_ply(folder.write("a.ply", text));
+      ASSERT_EQ(parts.size(), 1u);
+      EXPECT_EQ(parts[0].mesh.triangles.size(), 12u);
+      EXPECT_DOUBLE_EQ(signed_volume(parts[0].mesh), 6);
+    }
+  }
 }
 
 TEST(PlyReader, SaysWhyThereAreNoTriangles) {

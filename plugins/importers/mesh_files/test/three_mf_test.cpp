@@ -103,6 +103,28 @@ TEST_F(ThreeMf, PrefixesAndUtf16) {
   }
 }
 
+/// Encodings of one byte for each character are those of iconv; others are refused.
+TEST_F(ThreeMf, OtherEncodings) {
+  const std::string plain = model("", object("1", "name='@'", 1, 2, 3), "<item objectid='1'/>");
+  const auto in = [&](const std::string& encoding, const std::string& name) {
+    std::string text = plain.substr(plain.find("?>") == plain.npos ? 0 : plain.find("?>") + 2);
+    text.replace(text.find('@'), 1, name);
+    return "<?xml version=\"1.0\" encoding=\"" + encoding + "\"?>" + text;
+  };
+  const std::tuple<const char*, const char*, const char*> cases[] = {{"windows-1252", "\x80 \xE4", "€ ä"},
+                                                                     {"ISO-8859-1", "\xE4", "ä"},
+                                                                     {"ISO-8859-15", "\xA4", "€"},
+                                                                     {"windows-1251", "\xC2\xE0\xEB", "Вал"},
+                                                                     {"KOI8-R", "\xF7\xC1\xCC", "Вал"}};
+  for (const auto& [encoding, bytes, name] : cases) {
+    const auto parts = read(in(encoding, bytes));
+    ASSERT_EQ(parts.size(), 1u) << encoding;
+    EXPECT_EQ(parts[0].name, name) << encoding;
+  }
+  for (const char* encoding : {"GB18030", "Shift_JIS", "UTF-7", "no-such-encoding", "EBCDIC-US"})
+    EXPECT_NE(error(in(encoding, "a")).find("unknown encoding"), std::string::npos) << encoding;
+}
+
 TEST_F(ThreeMf, WhatIsNoPartIsNotedAndDoublesAreKept) {
   const auto parts = read(
       model("unit=\"inch\"",
