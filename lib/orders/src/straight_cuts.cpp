@@ -19,7 +19,7 @@ constexpr std::size_t kRays = 48;      // from vertices of each part
 constexpr double kResolution = 8;      // of depths that are compared, in tolerances
 constexpr double kShare = 0.1;         // the same as a share of the depth; the larger of the two applies
 constexpr std::uint64_t kPoses = 200;  // measured for each pair
-constexpr double kFineShare = 0.03;    // a stated depth is written with two digits
+constexpr double kFineShare = 0.05;    // half of what a stated depth may be off (docs/plan-format.md)
 
 double support(const Aabb& box, const Vector3d& d) { return box.center().dot(d) + 0.5 * box.size().dot(d.cwiseAbs()); }
 

@@ -71,7 +71,7 @@ std::vector<InitialOverlap> measure_overlaps(const std::vector<Part>& parts, con
   for (std::size_t i = 0; i < pairs.size(); ++i)
     if (alike[i].original == i) first.push_back(i);
   in_parallel(first, [&](InitialOverlap& pair) {
-    const Penetration deepest = deepest_penetration(body(pair.a), Pose{}, body(pair.b), Pose{}, exact_to, context);
+    const Penetration deepest = deepest_penetration(body(pair.a), Pose{}, body(pair.b), Pose{}, {exact_to}, context);
     if (!context.should_stop()) classify(pair, deepest);  // else only a lower bound; parallel_phase() will throw
   });
   for (std::size_t i = 0; i < pairs.size(); ++i) {

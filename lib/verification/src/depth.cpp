@@ -30,20 +30,12 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// Deepest surface point of A in B. `place` maps A to the frame of B, `frame` maps that frame to the world. Points in
-/// `left_out` in the assembled frame of either part do not count; null: all count.
+/// Deepest surface point of A in B. `place` maps A to the frame of B, `frame` maps that frame to the world.
 class Descent {
  public:
-  Descent(const Solid& a, const Solid& b, const Placement& place, double tolerance, const Pose& frame,
-          const Aabb* left_out, Penetration& deepest, const RunContext& context)
-      : a_(a),
-        b_(b),
-        place_(place),
-        tolerance_(tolerance),
-        frame_(frame),
-        left_out_(left_out),
-        deepest_(deepest),
-        context_(context) {}
+  Descent(const Solid& a, const Solid& b, const Placement& place, const DepthSearch& search, const Pose& frame,
+          Penetration& deepest, const RunContext& context)
+      : a_(a), b_(b), place_(place), search_(search), frame_(frame), deepest_(deepest), context_(context) {}
 
   /// Returns true if one shrunken copy of all of A stays off the surface of B.
   bool run() {
@@ -53,11 +45,11 @@ class Descent {
     for (const Patch& patch : open_) {
       for (const auto& p : patch.p) sample(place_ * p);
       sample(place_ * patch.center());
-      if (told_to_stop(++sampled)) return false;
+      if (deepest_.depth >= search_.enough || told_to_stop(++sampled)) return false;
     }
     std::uint64_t left = 100'000;  // patches: the deepest point is mostly among the first thousands
     while (!open_.empty() && left-- > 0) {
-      if (told_to_stop(left)) return false;
+      if (deepest_.depth >= search_.enough || told_to_stop(left)) return false;
       const Patch patch = open_.front();
       open_.pop_front();
       std::optional<Ridge> ridge;
@@ -73,7 +65,7 @@ class Descent {
 
  private:
   bool told_to_stop(std::uint64_t count) const { return count % 64 == 0 && context_.should_stop(); }
-  double level() const { return deepest_.depth + tolerance_ * (1 - geometry::kRounding); }
+  double level() const { return deepest_.depth + search_.tolerance * (1 - geometry::kRounding); }
 
   /// `x` in the frame of B.
   void found(double depth, const Vec3& x) {
@@ -82,16 +74,17 @@ class Descent {
 
   /// `x` in the frame of B.
   bool is_left_out(const Vec3& x) const {
-    return left_out_ != nullptr && (left_out_->contains(b_.frame * x) ||
-                                    left_out_->contains(a_.frame * Vec3(place_.r.transpose() * (x - place_.t))));
+    return search_.left_out != nullptr &&
+           (search_.left_out->contains(b_.frame * x) ||
+            search_.left_out->contains(a_.frame * Vec3(place_.r.transpose() * (x - place_.t))));
   }
 
   /// True if the box contains the whole patch in one of the two frames.
   bool is_left_out(const Patch& patch) const {
-    if (left_out_ == nullptr) return false;
+    if (search_.left_out == nullptr) return false;
     const auto all_in = [&](const auto& to_part) {
       return std::all_of(patch.p.begin(), patch.p.end(),
-                         [&](const Vec3& p) { return left_out_->contains(to_part(p)); });
+                         [&](const Vec3& p) { return search_.left_out->contains(to_part(p)); });
     };
     return all_in([&](const Vec3& p) -> Vec3 { return a_.frame * p; }) ||
            all_in([&](const Vec3& p) -> Vec3 { return b_.frame * Vec3(place_ * p); });
@@ -186,9 +179,8 @@ class Descent {
   const Solid& a_;
   const Solid& b_;
   const Placement& place_;
-  double tolerance_;
+  const DepthSearch& search_;
   const Pose& frame_;
-  const Aabb* left_out_;
   Penetration& deepest_;
   const RunContext& context_;
   bool stopped_ = false;  // in the first round
@@ -219,13 +211,12 @@ std::optional<Penetration> wall_depth(const Solid& a, const Pose& place_a, const
 }  // namespace
 }  // namespace verify
 
-namespace {
-
-Penetration deepest_of(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
-                       const Aabb* left_out, double from, double tolerance, const RunContext& context) {
+Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
+                                const DepthSearch& search, const RunContext& context) {
+  const double tolerance = search.tolerance, enough = search.enough;
   if (!(tolerance > 0)) throw std::invalid_argument("penetration_depth: tolerance must be > 0");
   using verify::Placement;
-  Penetration deepest{from};
+  Penetration deepest{search.from};
   for (const auto& x : a.impl().solids)
     for (const auto& y : b.impl().solids) {
       const Pose place_x = pose_a * x.frame, place_y = pose_b * y.frame;
@@ -242,31 +233,19 @@ Penetration deepest_of(const DepthBody& a, const Pose& pose_a, const DepthBody& 
       const Placement &there = swap ? b_in_a : a_in_b, &back = swap ? a_in_b : b_in_a;
       const Pose &first_frame = swap ? place_y : place_x, &second_frame = swap ? place_x : place_y;
       const double before = deepest.depth;
-      const bool shrunken =
-          verify::Descent(first, second, there, tolerance, second_frame, left_out, deepest, context).run();
+      const bool shrunken = verify::Descent(first, second, there, search, second_frame, deepest, context).run();
       // As in pair_check.cpp: then no point of the second is deeper in the first either.
       if (shrunken && verify::starts_off(second, first, back, before + tolerance)) continue;
-      if (context.should_stop()) return deepest;
-      verify::Descent(second, first, back, tolerance, first_frame, left_out, deepest, context).run();
+      if (deepest.depth >= enough || context.should_stop()) return deepest;
+      verify::Descent(second, first, back, search, first_frame, deepest, context).run();
+      if (deepest.depth >= enough) return deepest;
     }
   return deepest;
 }
 
-}  // namespace
-
 Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
                                 double tolerance) {
-  return deepest_penetration(a, pose_a, b, pose_b, tolerance, RunContext{});
-}
-
-Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
-                                double tolerance, const RunContext& context) {
-  return deepest_of(a, pose_a, b, pose_b, nullptr, 0, tolerance, context);
-}
-
-Penetration deepest_elsewhere(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
-                              const Aabb& region, double from, double tolerance, const RunContext& context) {
-  return deepest_of(a, pose_a, b, pose_b, &region, from, tolerance, context);
+  return deepest_penetration(a, pose_a, b, pose_b, DepthSearch{tolerance}, RunContext{});
 }
 
 double penetration_depth(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,

@@ -64,6 +64,12 @@ struct MotionDepthMeter::Impl {
   static double resolution(const MotionDepthOptions& options, const std::optional<MotionDepth>& worst) {
     return std::max(options.absolute, options.relative * (worst ? worst->depth : 0));
   }
+  /// Least depth that leaves nothing more to find.
+  static double enough(const MotionDepthOptions& options, double allowed) {
+    const double resolved = std::min(options.at_most - options.absolute, options.at_most / (1 + options.relative));
+    return std::max(allowed, resolved);
+  }
+  Eigen::Vector3d size_of(PartId part) const { return assembly.parts.at(part).mesh->box().size(); }
   static void raise(std::optional<MotionDepth>& worst, const MotionDepth& here) {
     if (!worst || here.excess() > worst->excess() || (here.excess() == worst->excess() && here.depth > worst->depth))
       worst = here;
@@ -72,19 +78,48 @@ struct MotionDepthMeter::Impl {
   /// Raises `worst`. Returns false when the result is not proved.
   bool pair(PartId part, const PairMotion& motion, const PlacedPart& other, const MotionDepthOptions& options,
             const RunContext& context, double allowed, std::optional<MotionDepth>& worst) {
-    const auto measure = [&](double u) {
-      // A measurement may be off by a quarter of the resolution. The rest is for the motion between measurements.
-      const Penetration found = deepest_penetration(body(part), motion.at(u), body(other.part), other.pose,
-                                                    0.25 * resolution(options, worst), context);
-      raise(worst, {part, other.part, found.depth, allowed, found.point, false});
+    // Deeper than this would be a new worst.
+    const auto known = [&] { return worst ? allowed + worst->excess() : 0; };
+    const auto measured_to = [&](double u, DepthSearch search) {
+      search.enough = std::min(search.enough, enough(options, allowed));
+      const Penetration found =
+          deepest_penetration(body(part), motion.at(u), body(other.part), other.pose, search, context);
+      if (found.depth > search.from) raise(worst, {part, other.part, found.depth, allowed, found.point, false});
       return Sample{u, found.depth};
+    };
+    // A measurement may be off by a quarter of the resolution. The rest is for the motion between measurements.
+    const auto fine = [&](double u, double from) {
+      return measured_to(u, {.tolerance = 0.25 * resolution(options, worst), .from = from});
+    };
+    // How fine to measure follows from the depth, which nobody knows at first: begin with the deepest there can be.
+    const auto measure_first = [&](double u) {
+      const double most = 0.5 * std::min(size_of(part).minCoeff(), size_of(other.part).minCoeff());
+      Sample first{u, 0};
+      for (double error = 0.25 * options.relative * most;; error *= 0.25) {
+        error = std::max(error, 0.25 * options.absolute);
+        first = measured_to(u, {.tolerance = error, .from = first.depth});
+        if (error <= 0.25 * std::max(options.absolute, options.relative * first.depth) || context.should_stop() ||
+            first.depth >= enough(options, allowed))
+          break;
+      }
+      if (!worst) raise(worst, {part, other.part, first.depth, allowed, motion.at(u).t, false});
+      return first;
+    };
+    // Exact depths are needed of what may be the worst only: most places are found in one coarse pass to be less deep
+    // than half of it, or in one fine pass to be no deeper.
+    const auto measure = [&](double u) {
+      const double most = known();
+      if (most <= 2 * resolution(options, worst)) return fine(u, 0);
+      const Sample coarse = measured_to(u, {.tolerance = 0.25 * most, .from = 0.5 * most, .enough = 0.75 * most});
+      if (coarse.depth < 0.75 * most) return Sample{u, coarse.depth + 0.25 * most};
+      return fine(u, std::max(most, coarse.depth));
     };
     const auto interval = [&](const Sample& a, const Sample& b) {
       return Interval{a, b, std::min(0.5 * (a.depth + b.depth + motion.travel(a.u, b.u)), options.at_most) - allowed};
     };
     const auto is_settled = [&](double bound) { return bound <= worst->excess() + resolution(options, worst); };
     std::priority_queue<Interval> open;
-    Sample before = measure(0);
+    Sample before = worst ? measure(0) : measure_first(0);
     std::uint64_t measured = 1;
     if (is_settled(options.at_most - allowed)) return true;
     for (std::size_t k = 1; k <= motion.segments(); ++k) {
@@ -137,12 +172,13 @@ struct MotionDepthMeter::Impl {
           if (!solids.forward.swept_box().overlaps(y.box)) break;
           const VerifyBudget& counts = verifier.options().budget;
           geometry::Budget budget{counts.tests + counts.tests_per_segment * motion.segments(),
-                                  counts.overlap_factor * counts.patches, 0, &context, counts.resolution};
+                                  counts.patches, 0, &context, counts.resolution};
           const geometry::Finding found = geometry::check_pair(x, y, solids.forward, solids.backward(), limits, budget);
           if (found.answer == geometry::Answer::certified) break;
           if (context.should_stop() || known() > options.stop_above || ++measured > options.most_poses) return false;
-          const Penetration then = deepest_elsewhere(body(part), motion.at(found.time), body(other.part), other.pose,
-                                                     region, known(), 0.5 * sure, context);
+          const Penetration then =
+              deepest_penetration(body(part), motion.at(found.time), body(other.part), other.pose,
+                                  {.tolerance = 0.5 * sure, .from = known(), .left_out = &region}, context);
           bool higher = raise_to(then.depth, then.point);
           if (found.answer == geometry::Answer::violated) {
             const Pose place = found.of_second ? other.pose * y.frame : motion.at(found.time) * x.frame;

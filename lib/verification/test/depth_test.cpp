@@ -119,7 +119,7 @@ TEST(PenetrationDepth, ToldToStopItIsALowerBoundOfLittleWork) {
     const DepthBody a(shapes::sphere({0, 0, 0}, 1, 3)), b(shapes::sphere(rng.uniform(0.3, 1) * Vec3::UnitX(), 1, 3));
     const Pose world = random_pose(rng, 3);
     const double whole = penetration_depth(a, world, b, world, kTolerance);
-    const double found = deepest_penetration(a, world, b, world, kTolerance, stopped).depth;
+    const double found = deepest_penetration(a, world, b, world, {kTolerance}, stopped).depth;
     EXPECT_LE(found, whole + kTolerance);
     less += found < whole - kTolerance ? 1 : 0;
   }

@@ -9,7 +9,7 @@ namespace dismantle::least_cut {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kFineShare = 0.03;  // a stated depth is written with two digits
+constexpr double kFineShare = 0.05;  // half of what a stated depth may be off (docs/plan-format.md)
 constexpr double kClearlyLess = 0.95;
 constexpr double kEqualSums = 1.1;   // of sums up to this factor the number of steps decides
 

@@ -199,7 +199,7 @@ class Geometry {
   std::optional<PairContact> contact(const InitialOverlap& pair) const {
     const DepthBody &a = *bodies_[pair.a], &b = *bodies_[pair.b];
     if (pair.depth > 0) {
-      const Penetration deepest = deepest_penetration(a, Pose{}, b, Pose{}, tolerance_, context_);
+      const Penetration deepest = deepest_penetration(a, Pose{}, b, Pose{}, {tolerance_}, context_);
       if (context_.should_stop()) return std::nullopt;
       return classify_overlap(a, b, deepest, tolerance_);
     }

@@ -1,19 +1,26 @@
-/// Penetration depth for callers with a deadline.
+/// Penetration depth for callers with a deadline, or with knowledge of what they need.
 #pragma once
+
+#include <limits>
 
 #include "dismantle/run_context.h"
 #include "dismantle/verification/verifier.h"
 
 namespace dismantle {
 
-/// As deepest_penetration(). When `context` says to stop, returns the deepest point so far, still a lower bound.
-Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
-                                double tolerance, const RunContext& context);
+/// What to search for; lengths in the unit of the meshes.
+struct DepthSearch {
+  double tolerance = 0;  ///< > 0; error of the answer
+  double from = 0;       ///< what is less deep than this + `tolerance` is not searched
+  double enough = std::numeric_limits<double>::infinity();  ///< the search ends at the first point so deep
+  /// Points that are in this box in the assembled frame of either part do not count, as in law 3 of the verifier. Of
+  /// two parts that have an inside. Null: all points count.
+  const Aabb* left_out = nullptr;
+};
 
-/// The same for surface points outside `region` alone, as in law 3 of the verifier: points that are in it in the
-/// assembled frame of either part do not count. Of two parts that have an inside. What is less deep than `from` +
-/// tolerance is not searched: a depth of `from` says that there is nothing deeper.
-Penetration deepest_elsewhere(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
-                              const Aabb& region, double from, double tolerance, const RunContext& context);
+/// As deepest_penetration(). A depth of `from` says that there is nothing deeper; its point is undefined. When
+/// `context` says to stop, returns the deepest point so far, still a lower bound.
+Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
+                                const DepthSearch& search, const RunContext& context);
 
 }  // namespace dismantle
