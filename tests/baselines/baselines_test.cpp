@@ -57,7 +57,7 @@ TEST_P(EachPlanner, SolvesBoxWithLid) {
 }
 
 TEST_P(EachButRoadmaps, SolvesSlotWithOneBend) {
-  const RunResult r = plan("l_slot", {{"clearance", 0.5}, {"travel", 10.0}}, GetParam(), {"run.path_steps=400000"});
+  const RunResult r = plan("l_slot", {{"clearance", 0.5}, {"travel", 10.0}}, GetParam(), {"run.path_steps=1000000"});
   EXPECT_EQ(r.plan.status, PlanStatus::complete);
 }
 

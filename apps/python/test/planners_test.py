@@ -191,7 +191,7 @@ def test_the_oracle(box):
     assert seen["path"].shape[1:] == (1, 7) and seen["again"] and seen["proposed"] and not seen["refused"]
     assert seen["blocked"][0] is False
     assert box["lid"].id not in seen["left"] and len(seen["left"]) == len(box) - 1
-    assert seen["tolerance"] == 0.01
+    assert seen["tolerance"] == 0.001
     assert [s.parts for s in plan.steps] == [["lid"]] and not plan.complete
     with pytest.raises(dismantle.Error, match="over"):
         seen["oracle"].attempt("lid")

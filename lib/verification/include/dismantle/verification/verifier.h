@@ -35,7 +35,7 @@ struct VerifyBudget {
 };
 
 /// Assembly units; the largest edge of an assembly is 10, unless it was scaled otherwise.
-inline constexpr double kDefaultTolerance = 0.01;
+inline constexpr double kDefaultTolerance = 0.001;
 
 /// How strict the verifier is.
 struct VerifyOptions {
