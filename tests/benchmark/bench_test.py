@@ -198,6 +198,17 @@ class Resuming(BenchTest):
         self.assertIn("has no planner 'nobody'; it has: none, lie",
                       self.call("bench", "new.yaml", "-o", "new", "--only", "nobody", status=2).stderr)
 
+    def test_more_seeds_of_a_planner_are_more_rows_of_it(self):
+        self.suite(self.evil("none", "lie"), assemblies=self.ASSEMBLIES)
+        self.bench()
+        before = [dict(row) for row in self.rows()]
+        self.suite(self.evil("none") + "  lie: {config: evil.yaml, set: {path_planner.type: evil.lie}, seeds: 1..3}\n", assemblies=self.ASSEMBLIES)
+        self.assertEqual(self.bench()["ran"], 4)
+        self.assert_each_once(8)
+        self.assertEqual([dict(row) for row in self.rows()][:4], before)
+        self.assertEqual({r["planner"] for r in self.rows("SELECT * FROM trials WHERE seed > 1")}, {"lie"})
+        self.assertIn("seeds,1 of none; 1..3 of lie", self.call("report", "out", "--table", "setup", "--format", "csv").stdout)
+
     def test_only_does_not_make_planners_that_cannot_be_compared(self):
         self.suite(self.evil("none", "lie"))
         self.bench()

@@ -5,10 +5,15 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
+#include <tuple>
+
+#include "dismantle/bench/campaign.h"
+#include "dismantle/samples/samples.h"
 
 namespace dismantle::bench {
 namespace {
@@ -70,6 +75,41 @@ TEST_F(SuiteTest, TheMatrix) {
   EXPECT_EQ(matrix(suite).size(), 2u * 4 * 3);
   EXPECT_EQ(suite.planners[0].config.run.timeout, 10);
   EXPECT_FALSE(suite.planners[0].config.layout.enabled);
+}
+
+TEST_F(SuiteTest, APlannerHasSeedsOfItsOwn) {
+  const Suite suite = read_suite(write(R"(schema: 1
+assemblies: [{sample: l_slot}]
+planners:
+  random: {seeds: [1..3, 9]}
+  one: {}
+variants: {plain: {}, turned: {rotate: random, planners: [one]}}
+)"));
+  EXPECT_EQ(suite.planners[0].seeds, (std::vector<std::int64_t>{1, 2, 3, 9}));
+  EXPECT_EQ(suite.planners[1].seeds, std::vector<std::int64_t>{1});
+  std::vector<std::tuple<std::size_t, std::size_t, std::int64_t>> cells;  // planner, variant, seed
+  for (const Cell& cell : matrix(suite)) cells.emplace_back(cell.planner, cell.variant, cell.seed);
+  EXPECT_EQ(cells, (decltype(cells){{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 0, 2}, {0, 0, 3}, {0, 0, 9}}));
+  const std::string text = dry_run_text(suite, CampaignOptions{});
+  EXPECT_NE(text.find("4 seeds: 6 trials"), std::string::npos) << text;
+  EXPECT_NE(text.find("planner random: blocking + guided + sdf_penalty, 4 seeds\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("planner one: blocking + guided + sdf_penalty\n"), std::string::npos) << text;
+}
+
+TEST_F(SuiteTest, SeedsOfAPlannerThatAreWrong) {
+  const auto found = problems(R"(schema: 1
+assemblies: [{sample: l_slot}]
+planners:
+  backwards: {seeds: 3..1}
+  twice: {seeds: [1..3, 2]}
+  empty: {seeds: []}
+  map: {seeds: {first: 1}}
+)");
+  const std::vector<std::string> wanted = {
+      "4: planners.backwards: seeds must be whole numbers >= 0 or ranges such as 1..6 (at most 100000), got '3..1'",
+      "5: planners.twice: seeds names a seed twice", "6: planners.empty: seeds is empty",
+      "7: planners.map: seeds must be whole numbers >= 0 or ranges such as 1..6 (at most 100000), got a map"};
+  EXPECT_EQ(found, wanted) << testing::PrintToString(found);
 }
 
 TEST_F(SuiteTest, ShardsAreTheWhole) {
@@ -228,8 +268,15 @@ TEST_F(SuiteTest, GlobsInNaturalOrderWithExceptions) {
   EXPECT_EQ(problems("schema: 1\nassemblies: [{glob: 'data/*/', except: [plan]}]\nplanners: {a: }\n").size(), 1u);
 }
 
-// Law: every suite in configs/bench reads, with what is here.
-TEST(Suites, OfTheProject) {
+// Law: every suite in configs/bench reads, with what is here. Where there are no data, empty folders stand for those
+// that suites without a sample need.
+TEST_F(SuiteTest, OfTheProject) {
+  const char* data = std::getenv("DISMANTLE_DATA");
+  if (data == nullptr) {
+    for (const char* name : {"cad/asap_beam", "threads/m10_bolt_nut", "two_part/skew_peg"})
+      fs::create_directories(folder_ / "data" / name);
+    setenv("DISMANTLE_DATA", (folder_ / "data").c_str(), 1);
+  }
   std::size_t found = 0;
   for (const auto& entry : fs::directory_iterator(fs::path(CONFIGS_FOLDER) / "bench")) {
     if (entry.path().extension() != ".yaml") continue;
@@ -241,6 +288,23 @@ TEST(Suites, OfTheProject) {
     }
   }
   EXPECT_GE(found, 4u);
+  if (data == nullptr) unsetenv("DISMANTLE_DATA");
+}
+
+std::size_t parts_of(const SuiteAssembly& assembly) {
+  if (assembly.path.empty()) return samples::make(assembly.sample, assembly.sample_values).size();
+  std::size_t count = 0;
+  for (const auto& file : fs::directory_iterator(assembly.path)) count += file.path().extension() == ".obj" ? 1 : 0;
+  return count;
+}
+
+// Law: suites of two-part assemblies hold two-part assemblies. Of the data: where they are here.
+TEST(Suites, OfTwoPartAssemblies) {
+  for (const char* name : {"two_part", "rotational", "results_two_part", "results_rotational"}) {
+    const Suite suite = read_suite(fs::path(CONFIGS_FOLDER) / "bench" / (std::string(name) + ".yaml"));
+    for (const SuiteAssembly& assembly : suite.assemblies)
+      EXPECT_EQ(parts_of(assembly), 2u) << name << ": " << assembly.name;
+  }
 }
 
 TEST_F(SuiteTest, TablesNameColumnsOfTrialsCountsAndChecks) {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <thread>
 
 #include "campaign/enlist.h"
@@ -215,15 +216,18 @@ std::string dry_run_text(const Suite& suite, const CampaignOptions& options) {
   check_planners(suite, options.only);
   auto cells = shard_of(all, options.shard, options.shards);
   std::erase_if(cells, [&](const Cell& cell) { return !is_wanted(suite.planners[cell.planner].name, options.only); });
-  std::string out = fmt::format("{}: {} assemblies, {} planners, {} variants, {} seeds: {} trials\n", suite.name,
-                                suite.assemblies.size(), suite.planners.size(), suite.variants.size(),
-                                suite.seeds.size(), all.size());
+  std::set<std::int64_t> seeds;
+  for (const auto& planner : suite.planners) seeds.insert(planner.seeds.begin(), planner.seeds.end());
+  std::string out =
+      fmt::format("{}: {} assemblies, {} planners, {} variants, {} seeds: {} trials\n", suite.name,
+                  suite.assemblies.size(), suite.planners.size(), suite.variants.size(), seeds.size(), all.size());
   if (options.shards > 1)
     out += fmt::format("shard {} of {}: {} of them\n", options.shard, options.shards, cells.size());
   if (!options.only.empty()) out += fmt::format("only {}: {} of them\n", fmt::join(options.only, ", "), cells.size());
   for (const auto& planner : suite.planners)
-    out += fmt::format("  planner {}: {} + {} + {}\n", planner.name, planner.config.sequence_planner.type,
-                       planner.config.path_planner.type, planner.config.simulator.type);
+    out += fmt::format("  planner {}: {} + {} + {}{}\n", planner.name, planner.config.sequence_planner.type,
+                       planner.config.path_planner.type, planner.config.simulator.type,
+                       planner.seeds == suite.seeds ? "" : fmt::format(", {} seeds", planner.seeds.size()));
   for (const auto& variant : suite.variants)
     out += fmt::format("  variant {}:{}{}{}\n", variant.name, variant.rotate ? " turned at random" : " as it is",
                        variant.part.empty() ? "" : ", part " + variant.part,

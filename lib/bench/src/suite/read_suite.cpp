@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <iterator>
 #include <set>
 
 #include "dismantle/bench/suite.h"
@@ -11,15 +11,13 @@
 #include "suite/assemblies.h"
 #include "suite/problem.h"
 #include "suite/search_paths.h"
+#include "suite/seeds.h"
 #include "suite/tables.h"
 
 namespace dismantle::bench {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Limit of one range: more seeds are probably a typing error and would use much memory.
-constexpr std::size_t kMaxSeeds = 100000;
 
 /// `rotate:` of a variant.
 enum class Rotate { none, random };
@@ -51,23 +49,6 @@ struct VerifyValues {
            .doc = "CPU time after which the verifying process is killed; twice that of wall-clock time."});
   }
 };
-
-/// "1..6" or a number.
-bool read_seeds(const std::string& text, std::vector<std::int64_t>& seeds) {
-  const std::size_t dots = text.find("..");
-  const auto number = [](const std::string& word, std::int64_t& value) {
-    const char* end = word.data() + word.size();
-    const auto read = std::from_chars(word.data(), end, value);
-    return read.ec == std::errc{} && read.ptr == end && value >= 0;
-  };
-  std::int64_t first = 0, last = 0;
-  if (!number(text.substr(0, dots), first)) return false;
-  last = first;
-  if (dots != std::string::npos && !number(text.substr(dots + 2), last)) return false;
-  if (last < first || static_cast<std::uint64_t>(last - first) >= kMaxSeeds) return false;
-  for (std::int64_t seed = first; seed <= last; ++seed) seeds.push_back(seed);
-  return true;
-}
 
 /// A value of `set:`, written as YAML again.
 std::string yaml_of(const ConfigNode& node) {
@@ -105,7 +86,8 @@ class Reader {
     suite_.max_penetration = verify.max_penetration;
     suite_.verify_cpu = verify.cpu;
     check_limits();
-    read_seed_list();
+    const ConfigNode* seeds = node("seeds");
+    suite_.seeds = seeds == nullptr ? std::vector<std::int64_t>{1} : read_seeds(*seeds, "", problems_);
     if (const ConfigNode* plugins = node("plugins"))
       search_paths_ = read_search_paths(*plugins, suite_.file.parent_path(), problems_);
     if (const ConfigNode* list = required("assemblies")) read_assemblies(*list, suite_, problems_);
@@ -184,23 +166,6 @@ class Reader {
                                          "end some time"));
   }
 
-  void read_seed_list() {
-    const ConfigNode* seeds = node("seeds");
-    if (seeds == nullptr) {
-      suite_.seeds = {1};
-      return;
-    }
-    const bool list = seeds->kind == ConfigNode::Kind::sequence;
-    for (const auto& item : list ? seeds->items : std::vector<ConfigNode>{*seeds})
-      if (!item.is_scalar() || !read_seeds(item.scalar, suite_.seeds))
-        problems_.push_back(item.mark.error(
-            fmt::format("seeds must be whole numbers >= 0 or ranges such as 1..6 (at most {}), got {}", kMaxSeeds,
-                        item.is_scalar() ? "'" + item.scalar + "'" : std::string(item.kind_name()))));
-    if (std::set<std::int64_t>(suite_.seeds.begin(), suite_.seeds.end()).size() != suite_.seeds.size())
-      problems_.push_back(seeds->mark.error("seeds names a seed twice"));
-    if (suite_.seeds.empty() && list && seeds->items.empty()) problems_.push_back(seeds->mark.error("seeds is empty"));
-  }
-
   void read_planners(const ConfigNode& map) {
     if (!map.is_map() || map.members.empty()) {
       problems_.push_back(map.mark.error("planners must be a map from names to configurations"));
@@ -212,12 +177,13 @@ class Reader {
   void read_planner(const ConfigMember& member) {
     const std::string label = "planners." + member.key;
     if (!member.value.is_map() && member.value.kind != ConfigNode::Kind::null) {
-      problems_.push_back(member.value.mark.error(
-          fmt::format("{} must be a map with the keys config and set, not {}", label, member.value.kind_name())));
+      problems_.push_back(member.value.mark.error(fmt::format(
+          "{} must be a map with the keys config, set and seeds, not {}", label, member.value.kind_name())));
       return;
     }
     ConfigSource source;
     std::vector<ConfigMark> places;
+    std::vector<std::int64_t> seeds = suite_.seeds;
     const auto fail = [&](const ConfigMark& mark, const std::string& what) {
       problems_.push_back(mark.error(fmt::format("{}: {}", label, what)));
     };
@@ -237,11 +203,13 @@ class Reader {
           source.set.push_back(item.key + "=" + yaml_of(item.value));
           places.push_back(item.value.mark);
         }
+      } else if (key == "seeds") {
+        seeds = read_seeds(value, label + ": ", problems_);
       } else if (key == "config" || key == "set") {
         fail(value.mark, fmt::format("{} must be {}, not {}", key, key == "set" ? "a map" : "the name of a file",
                                      value.kind_name()));
       } else {
-        problems_.push_back(key_mark.error(unknown_key_message(key, {label, "", ""}, {"config", "set"}, {})));
+        problems_.push_back(key_mark.error(unknown_key_message(key, {label, "", ""}, {"config", "set", "seeds"}, {})));
       }
     }
     // Planners are compared by what they find, not by how an objective likes it, unless the suite names one.
@@ -251,10 +219,13 @@ class Reader {
       source.set.emplace_back("objective=[]");
       places.push_back(member.key_mark);
     }
-    load_planner(member.key, source, places, member.key_mark, own_objective);
+    SuitePlanner planner;
+    planner.name = member.key;
+    planner.seeds = std::move(seeds);
+    load_planner(std::move(planner), source, places, member.key_mark, own_objective);
   }
 
-  void load_planner(const std::string& name, ConfigSource source, const std::vector<ConfigMark>& places,
+  void load_planner(SuitePlanner planner, ConfigSource source, const std::vector<ConfigMark>& places,
                     const ConfigMark& name_mark, bool own_objective) {
     const Limits& l = suite_.limits;
     const auto option = [&](const char* flag, const char* key, const ParamValue& value) {
@@ -266,8 +237,7 @@ class Reader {
     option("limits.threads", "run.threads", static_cast<std::int64_t>(l.threads));
     option("seeds", "run.seed", std::int64_t{1});
     option("assembly_steps", "layout.enabled", assembly_steps_);
-    SuitePlanner planner;
-    planner.name = name;
+    const std::string name = planner.name;
     const auto load = [&] {
       planner.registry = std::make_shared<Registry>();
       for (const auto& path : search_paths_) planner.registry->add_search_path(path);
@@ -375,15 +345,23 @@ void Limits::describe(Schema<Limits>& s) {
 Suite read_suite(const fs::path& file) { return Reader(file).read(); }
 
 std::vector<Cell> matrix(const Suite& suite) {
+  std::vector<std::int64_t> seeds;  // of any planner
+  std::set<std::int64_t> seen;
+  std::vector<std::set<std::int64_t>> own;
+  for (const SuitePlanner& planner : suite.planners) {
+    own.emplace_back(planner.seeds.begin(), planner.seeds.end());
+    std::ranges::copy_if(planner.seeds, std::back_inserter(seeds), [&](auto seed) { return seen.insert(seed).second; });
+  }
+  const auto takes_part = [](const SuiteVariant& variant, const std::string& planner) {
+    return variant.planners.empty() || std::ranges::find(variant.planners, planner) != variant.planners.end();
+  };
   std::vector<Cell> cells;
   for (std::size_t a = 0; a < suite.assemblies.size(); ++a)
-    for (const std::int64_t seed : suite.seeds)
+    for (const std::int64_t seed : seeds)
       for (std::size_t v = 0; v < suite.variants.size(); ++v)
-        for (std::size_t p = 0; p < suite.planners.size(); ++p) {
-          const auto& only = suite.variants[v].planners;
-          if (only.empty() || std::find(only.begin(), only.end(), suite.planners[p].name) != only.end())
+        for (std::size_t p = 0; p < suite.planners.size(); ++p)
+          if (own[p].contains(seed) && takes_part(suite.variants[v], suite.planners[p].name))
             cells.push_back({a, v, p, seed});
-        }
   return cells;
 }
 

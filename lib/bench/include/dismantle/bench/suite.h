@@ -39,6 +39,7 @@ struct SuitePlanner {
   std::string name;
   RunConfig config;                    ///< with the suite's limits; the seed is set per trial
   std::shared_ptr<Registry> registry;  ///< for this planner only
+  std::vector<std::int64_t> seeds;     ///< its own, or those of the suite
 };
 
 struct SuiteVariant {
@@ -61,7 +62,7 @@ struct Suite {
   std::vector<SuiteAssembly> assemblies;
   std::vector<SuitePlanner> planners;
   std::vector<SuiteVariant> variants;
-  std::vector<std::int64_t> seeds;
+  std::vector<std::int64_t> seeds;  ///< of planners without seeds of their own
   Limits limits;
   double max_penetration =
       kDefaultTolerance;    ///< assembly units; the verifier's tolerance, overrides planners' configurations
