@@ -117,7 +117,7 @@ Path LevelSearch::path_to(std::int32_t node) const {
 
 /// Checks the path to a separated state. If it is refused at a known place, that place becomes a contact sample.
 LevelSearch::End LevelSearch::verify(std::int32_t last, PathResult& result) {
-  const Path path = path::thin(path_to(last), bodies_, parameters_.thinning);
+  const Path path = path::thin(path_to(last), bodies_, parameters_.thinning * query_.tolerance);
   const PathCheck check = query_.checker.check(path);
   if (check.accepted()) {
     result.solve(*check.verified, levels_.nodes[static_cast<std::size_t>(last)].depth);

@@ -9,6 +9,7 @@
 namespace dismantle::bfs {
 namespace {
 
+using Eigen::Vector3d;
 using path::test::assembly_of;
 using path::test::block;
 using path::test::boxes;
@@ -42,13 +43,14 @@ struct Bench : path::test::Table {
 };
 
 /// A slider in a roofed slot. It leaves `length` along +x, then up through a hole.
-Assembly slot(double length) {
+Assembly slot(double length, const Pose& pose = {}) {
   const double c = 0.02, end = length + 1;
   return assembly_of({boxes({block(0, 0, 0, 1, 0.8, 0.6)}),
                       boxes({block(-0.5, -0.5, -0.5, end + 0.5, 1.3, -c),  // floor
                              block(-0.5, -0.5, -c, -c, 1.3, 1), block(end + c, -0.5, -c, end + 0.5, 1.3, 1),
                              block(-c, -0.5, -c, end + c, -c, 1), block(-c, 0.8 + c, -c, end + c, 1.3, 1),
-                             block(-c, -c, 0.6 + c, length - c, 0.8 + c, 1)})});  // roof
+                             block(-c, -c, 0.6 + c, length - c, 0.8 + c, 1)})},  // roof
+                     pose);
 }
 
 const ParamSet kTranslation{{"motion", std::string("translation")}};
@@ -64,6 +66,17 @@ TEST(Published, SlotsOfAnyLengthAreSolvedAtDepthTwoInFewSteps) {
     // A planning time step of 100 time steps moves it by half a unit; a tenth of the time steps is simulated.
     EXPECT_LT(r.stats.steps, 150 + 60 * length) << length;
     EXPECT_EQ(bench.plan(kTranslation, {.max_depth = 1}).outcome(), Outcome::depth_limit);
+  }
+}
+
+/// Parts that are pushed askew bend around the edges that guide them.
+TEST(Published, PathsAreThinnedToAShareOfTheTolerance) {
+  for (const double slope : {0.3, 0.6}) {
+    const Pose turned{Vector3d::Zero(), Eigen::Quaterniond(Eigen::AngleAxisd(slope, Vector3d(1, 2, 3).normalized()))};
+    Bench bench(slot(1.5, turned));
+    const PathResult r = bench.plan(kTranslation);
+    ASSERT_EQ(r.outcome(), Outcome::solved) << slope << ": " << r.message;
+    EXPECT_EQ(r.stats.refused, 0u) << slope;
   }
 }
 
