@@ -1,206 +1,157 @@
 #!/usr/bin/env python3
 """Writes docs/results: the comparison of all planners, in the form of the paper's tables 2 to 4.
 
-  tools/make_results.py [--data DIR] [--program build/release/bin/dismantle] [--work build/results] [--jobs N]
+  tools/make_results.py [--data DIR] [--program build/release/bin/dismantle] [--work build/results] [--jobs N] [--only SUITE]... [--no-run]
 
 Runs the suites configs/bench/results_*.yaml with `dismantle bench`, which resumes an earlier run (delete the work folder to start
 again), and writes the output of `dismantle report`: README.md with the tables, and for each suite a plot of success over time and
-a CSV file of all trials. DIR contains the third-party assemblies; without it only the samples are compared.
+a CSV file of all trials. DIR contains the third-party assemblies; without it only the samples are compared. --only runs these suites
+only, --no-run none; of suites that are not complete the page says how many trials were run.
 """
 import argparse
-import csv
-import io
 import os
-import platform
-import subprocess
 import sys
+
+sys.dont_write_bytecode = True
+
+from results_page import fidelity, paper  # noqa: E402
+from results_page.causes import CAUSES  # noqa: E402
+from results_page.suite_results import SuiteResults, is_solved, markdown, matrix, output_of  # noqa: E402
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 
-PAPER_TWO_PART = """| the paper | two-part |
-|---|---|
-| RRT | 84.5 |
-| T-RRT | 97.4 |
-| MV+T-RRT | 97.8 |
-| BK-RRT | 93.7 |
-| BFS | 99.8 |
-| BFS, rotated at random | 99.8 |
-"""
-PAPER_ROTATIONAL = """| the paper | screw | puzzle | others | overall |
-|---|---|---|---|---|
-| RRT | 0.0 | 20.8 | 0.0 | 6.9 |
-| T-RRT | 2.1 | 18.8 | 0.0 | 6.9 |
-| MV+T-RRT | 12.5 | 18.8 | 0.0 | 10.4 |
-| BK-RRT | 12.5 | 62.5 | 81.3 | 52.1 |
-| BFS | 75.0 | 87.5 | 50.0 | 70.8 |
-| BFS, rotated at random | 37.5 | 62.5 | 87.5 | 62.5 |
-"""
-PAPER_SIZES = """| the paper | small (3-9) | medium (10-49) | large (50+) | overall |
-|---|---|---|---|---|
-| RRT | 90.0 | 78.1 | 44.3 | 84.7 |
-| T-RRT | 94.0 | 84.8 | 52.5 | 89.7 |
-| MV+T-RRT | 94.2 | 85.2 | 53.8 | 90.0 |
-| BK-RRT | 96.4 | 91.6 | 51.9 | 93.6 |
-| Full BFS | 99.1 | 96.8 | 71.1 | 97.6 |
-| Prog. BFS | 99.0 | 97.3 | 76.7 | 97.9 |
-"""
-PAPER_TIMES = """| the paper | small (3-9) | medium (10-49) | large (50+) | overall |
-|---|---|---|---|---|
-| Full BFS | 18.5 | 38.4 | 30.6 | 25.6 |
-| Prog. BFS | 4.5 | 10.1 | 19.4 | 6.7 |
-"""
-
-# Suite, title, description, tables of `dismantle report`, each with a title and the paper's figures.
+# Suite, title, description, the paper's limits, tables of `dismantle report`, each with a title and the paper's figures.
 SECTIONS = [
     ("two_part", "Two parts (table 2, left)",
-     "One part is taken out, the other one is fixed. Path planners, each asked for the same path.",
-     [("success", "Success (%)", PAPER_TWO_PART)]),
+     "One part is taken out, the other one is fixed. Path planners, each asked for the same path. The paper: 300 s, six seeds.",
+     [("success", "Success (%)", paper.TWO_PART)]),
     ("rotational", "Parts that have to turn, and puzzles (table 2, right)",
-     "Screws, mazes, bayonets. Path planners, as before.",
-     [("success", "Success (%)", PAPER_ROTATIONAL)]),
+     "Screws, mazes, bayonets of two parts. Path planners, as before. The paper: 600 s, six seeds.",
+     [("success", "Success (%)", paper.ROTATIONAL)]),
     ("multi_part", "Whole assemblies (tables 3 and 4)",
      "The first six rows are the paper's methods: its baselines and `full_bfs` with the sequence planner `queue`, `prog_bfs` with "
-     "`progressive`. The other rows are sequence planners, named as such, with the path planner `guided`; `ndbg` asks no path planner.",
-     [("sizes", "Success by number of parts (%), table 3", PAPER_SIZES),
-      ("time", "Mean time per part (s), over assemblies that all planners solved, table 4", PAPER_TIMES)]),
+     "`progressive`. The other rows are sequence planners, named as such, with the path planner `guided`; `ndbg` asks no path planner. "
+     "The paper: 120 s for an attempt, 7200 s for an assembly, three seeds.",
+     [("sizes", "Success by number of parts (%), table 3", paper.SIZES),
+      ("time", "Mean time per part (s), over assemblies that all planners solved, table 4", paper.TIMES)]),
 ]
 
 
-def output_of(*command):
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(command)}: status {done.returncode}")
-    return done.stdout
+def best(results, most=4):
+    """The planners that solved most trials, as text."""
+    counts = {label: [is_solved(t) for t in results.of(label)] for label in results.labels}
+    order = sorted(counts, key=lambda label: -sum(counts[label]) / len(counts[label]))  # stable: ties in the order of the suite
+    return ", ".join(f"`{p}` {sum(counts[p])} of {len(counts[p])}" for p in order[:most])
 
 
-def commit_of(root):
-    if not os.path.exists(os.path.join(root, ".git")):
-        return "unknown: the source is no repository"
-    commit = output_of("git", "-C", root, "rev-parse", "--short=10", "HEAD").strip()
-    changed = output_of("git", "-C", root, "status", "--porcelain", "--untracked-files=no", "--", ".", ":!docs").strip()
-    return commit + (", with changes that are not committed" if changed else "")
+def without_solution(results):
+    """Why a planner solved nothing: how its trials ended, and the cause where it is known."""
+    none = [label for label in results.labels if not any(is_solved(t) for t in results.of(label))]
+    text = "### How trials ended\n\n" + markdown(results.table("outcomes"))
+    if none:
+        text += "\nPlanners that solved nothing here:\n\n"
+    for label in none:
+        cause = CAUSES.get((results.name, label.removesuffix(" (plain)")), "the cause was not looked into.")
+        text += f"- `{label}`: {cause}\n"
+    return text
 
 
-def machine():
-    model = platform.machine()
-    with open("/proc/cpuinfo", encoding="utf-8") as file:
-        for line in file:
-            if line.startswith("model name"):
-                model = line.split(":", 1)[1].strip()
-                break
-    with open("/proc/meminfo", encoding="utf-8") as file:
-        memory = int(file.readline().split()[1]) / 2**20
-    with open("/etc/os-release", encoding="utf-8") as file:
-        system = dict(line.rstrip().split("=", 1) for line in file if "=" in line).get("PRETTY_NAME", "").strip('"')
-    return f"{model}, {os.cpu_count()} cores, {memory:.0f} GiB, {system}"
+def section(results, title, words, tables, arguments):
+    text = f"\n## {title}\n\n{words}\n"
+    if not results.trials:
+        return text + f"\n{results.progress() if results.planned else 'Its assemblies are not here'}.\n"
+    text += f"\n{len(results.assemblies())} assemblies, {results.progress()}: {', '.join(results.assemblies())}. Most solved: {best(results)}.\n"
+    for table, heading, figures in tables:
+        rows = results.table(table)
+        text += f"\n### {heading}\n\n{markdown(rows)}\n{markdown(paper.table(figures))}"
+        if table == "time":
+            text += f"\n{paper.common_times(results)}"
+            continue
+        text += ("\nBeside the paper, judged by the 95 % interval of our share (equal: the paper's share lies within it):\n\n"
+                 f"{paper.compared(figures, rows)}\n{paper.unsolved_endings(results, [paper.OURS[name] for name in figures['rows']])}")
+    text += ("\n### Assemblies and planners\n\nMedian CPU seconds of the solved trials, with solved/trials where there are several seeds; otherwise how the trials ended.\n\n"
+             + markdown(matrix(results)))
+    text += f"\n{without_solution(results)}"
+    text += f"\n### Success over time\n\n![Share of trials solved within a time]({results.name}.svg)\n"
+    text += f"\n### Precision of the plans\n\n{markdown(results.table('precision'))}"
+    suite = os.path.relpath(results.suite, arguments.out)
+    return text + f"\nAll trials: [{results.name}.csv]({results.name}.csv). Suite: [results_{results.name}.yaml]({suite}).\n"
 
 
-def markdown(rows):
-    """A table in Markdown; the first row is the header."""
-    lines = ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows]
-    return "\n".join([lines[0], "|" + "---|" * len(rows[0]), *lines[1:]]) + "\n"
+def write_files(results, arguments, forms):
+    for form in forms if results.trials else ():
+        with open(os.path.join(arguments.out, f"{results.name}.{form}"), "w", encoding="utf-8", newline="\n") as file:
+            file.write(results.report(form).replace("\r\n", "\n"))
 
 
-def suite_of(name, arguments):
-    """Path of the suite, relative to the page."""
-    return os.path.relpath(os.path.join(arguments.suites, f"results_{name}.yaml"), arguments.out)
+def how_it_was_run(every):
+    """Limits, tolerance, seeds, machine, commit and date of each suite, from its rows."""
+    keys = ["limits", "tolerance of the verifier", "seeds", "Dismantle", "machine", "date"]
+    rows = [["suite", "trials", *keys]]
+    for results in every:
+        if results.trials:
+            setup = results.setup()
+            rows.append([results.name, results.progress(), *(setup[key] for key in keys)])
+    return markdown(rows)
 
 
-class Results:
-    """The results of one suite."""
+def head(every, arguments):
+    trials = [t for results in every for t in results.trials]
+    claimed = [t for t in trials if not is_solved(t) and t["outcome"] == "solved"]
+    refused = sum(t["verified"] == "no" for t in claimed)
+    return f"""# Results
 
-    def __init__(self, name, arguments):
-        self.program, self.folder = arguments.program, os.path.join(arguments.work, name)
-        suite = os.path.join(arguments.suites, f"results_{name}.yaml")
-        done = subprocess.run([self.program, "bench", suite, "-o", self.folder, "--jobs", str(arguments.jobs)], stdin=subprocess.DEVNULL)
-        if done.returncode != 0:
-            sys.exit(f"dismantle bench {suite}: status {done.returncode}")
-        self.trials = list(csv.DictReader(io.StringIO(self.report("csv"))))
-
-    def report(self, form, *more):
-        return output_of(self.program, "report", self.folder, "--time", "cpu", "--format", form, *more)
-
-    def table(self, name):
-        rows = list(csv.reader(io.StringIO(self.report("csv", "--table", name))))
-        if len(rows[0]) == 3 and rows[0][2] == "overall":  # a single category
-            rows = [row[:2] for row in rows]
-        return rows
-
-    def best(self, most=4):
-        """The planners that solved most trials, as text."""
-        solved, given = {}, {}
-        for t in self.trials:
-            if t["variant"] == "plain":
-                given[t["planner"]] = given.get(t["planner"], 0) + 1
-                solved[t["planner"]] = solved.get(t["planner"], 0) + (t["solved"] == "yes")
-        order = sorted(solved, key=lambda planner: -solved[planner])  # stable: ties in the order of the suite
-        return ", ".join(f"`{p}` {solved[p]} of {given[p]}" for p in order[:most])
-
-    def seconds(self):
-        return sum(float(t["wall s"]) for t in self.trials)
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", default=os.environ.get("DISMANTLE_DATA", ""), help="folder of assemblies; default: $DISMANTLE_DATA")
-    parser.add_argument("--program", default=os.path.join(ROOT, "build/release/bin/dismantle"))
-    parser.add_argument("--work", default=os.path.join(ROOT, "build/results"), help="folder of the databases")
-    parser.add_argument("--suites", default=os.path.join(ROOT, "configs/bench"), help="folder of results_*.yaml: other limits, more seeds")
-    parser.add_argument("--out", default=os.path.join(ROOT, "docs/results"))
-    parser.add_argument("--commit", help="what the program was built from, if that is not what is checked out")
-    parser.add_argument("--note", default="", help="what a reader has to know of this run, such as other jobs on the machine")
-    parser.add_argument("--jobs", type=int, default=1, help="trials at the same time; more than one disturb each other's times")
-    arguments = parser.parse_args()
-    if arguments.data:
-        os.environ["DISMANTLE_DATA"] = os.path.abspath(arguments.data)
-    os.makedirs(arguments.out, exist_ok=True)
-
-    text, seconds, trials, refused, unverified = "", 0.0, 0, 0, 0
-    for name, title, words, tables in SECTIONS:
-        results = Results(name, arguments)
-        seconds, trials = seconds + results.seconds(), trials + len(results.trials)
-        claimed = [t for t in results.trials if t["solved"] == "no" and t["outcome"] == "solved"]
-        refused += sum(t["verified"] == "no" for t in claimed)
-        unverified += sum(t["verified"] != "no" for t in claimed)
-        assemblies = list(dict.fromkeys(t["assembly"] for t in results.trials))
-        text += f"\n## {title}\n\n{words} {len(assemblies)} assemblies, {len(results.trials)} trials: {', '.join(assemblies)}. Most solved: {results.best()}.\n"
-        for table, heading, paper in tables:
-            text += f"\n### {heading}\n\n{markdown(results.table(table))}\n{paper}"
-        text += f"\n### Success over time\n\n![Share of trials solved within a time]({name}.svg)\n"
-        text += f"\n### Precision of the plans\n\n{markdown(results.table('precision'))}"
-        text += f"\nAll trials: [{name}.csv]({name}.csv). Suite: [results_{name}.yaml]({suite_of(name, arguments)}).\n"
-        for form in ("svg", "csv"):
-            with open(os.path.join(arguments.out, f"{name}.{form}"), "w", encoding="utf-8", newline="\n") as file:
-                file.write(results.report(form).replace("\r\n", "\n"))
-
-    head = f"""# Results
-
-All planners on the same assemblies, made by one command:
+All planners on the same assemblies, made by one command, which resumes a run that was interrupted:
 
 ```
 tools/make_results.py --data DIR
 ```
 
-| | |
-|---|---|
-| commit | {arguments.commit or commit_of(ROOT)} |
-| program | {output_of(arguments.program, "--version").splitlines()[0]} |
-| machine | {machine()} |
-| run | one thread for each trial, {arguments.jobs} trial{"s" if arguments.jobs > 1 else ""} at a time; {trials} trials, {seconds / 60:.0f} minutes in all{"; " + arguments.note if arguments.note else ""} |
+{how_it_was_run(every)}
+{len(trials)} trials, {sum(r.seconds() for r in every) / 3600:.1f} hours of wall-clock time of the planning processes in all. The page was written by {output_of(arguments.program, "--version").splitlines()[0]}.{" " + arguments.note if arguments.note else ""}
 
 How to read it: a trial is **solved** when the planner says so *and* the verifier, in a process of its own and on the original triangles,
-finds the plan valid; {refused} trials were claimed and refused, of {unverified} the verification did not end within the limit. In brackets: the 95 % interval of Wilson, then solved/trials. Limits are CPU
-seconds (`limits` in the suites) and far smaller than the paper's, so that this page can be made in half an hour: a row here says what a planner solves within
-seconds, not what it can solve at all. The assemblies are few and of our choice, so the intervals are wide; the paper's figures beside ours are of
-its own data set of thousands, with its limits, and are there for their form and for the order of the methods, not for the numbers.
-Times are CPU seconds of this machine, from reading the input to the plan. **Precision** is the deepest penetration that the verifier certifies along a whole plan, beyond the overlap of the parts when
-assembled, of an assembly scaled to size 10; the tolerance is 0.01.
+finds the plan valid; {refused} trials were claimed and refused, of {len(claimed) - refused} the verification did not end within its limit. In brackets: the 95 % interval of Wilson, then
+solved/trials; seeds that changed nothing are one observation. The paper's limits are named in each section; where ours are smaller, a row says what a planner solves within them, not
+what it can solve at all. The assemblies are few and of our choice, so the intervals are wide; the paper's figures beside ours are of
+its own data set of thousands, and are there for their form and for the order of the methods, not for the numbers.
+Times are CPU seconds, from reading the input to the plan. **Precision** is the deepest penetration that the verifier certifies along a whole plan, beyond the overlap of the parts when
+assembled, of an assembly scaled to size 10; the tolerance is in the table above.
 
 [benchmark.md](../benchmark.md) says how suites, limits and reports work; [planners](../planners/README.md) what the path planners do.
 """
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    names = [entry[0] for entry in SECTIONS] + fidelity.SUITES
+    parser.add_argument("--data", default=os.environ.get("DISMANTLE_DATA", ""), help="folder of assemblies; default: $DISMANTLE_DATA")
+    parser.add_argument("--program", default=os.path.join(ROOT, "build/release/bin/dismantle"))
+    parser.add_argument("--work", default=os.path.join(ROOT, "build/results"), help="folder of the databases")
+    parser.add_argument("--suites", default=os.path.join(ROOT, "configs/bench"), help="folder of results_*.yaml: other limits, more seeds")
+    parser.add_argument("--out", default=os.path.join(ROOT, "docs/results"))
+    parser.add_argument("--note", default="", help="what a reader has to know of this run, such as other jobs on the machine")
+    parser.add_argument("--jobs", type=int, default=1, help="trials at the same time; more than one disturb each other's times")
+    parser.add_argument("--only", action="append", choices=names, help="run this suite only; may be repeated")
+    parser.add_argument("--no-run", action="store_true", help="run nothing: the page of what the databases hold")
+    arguments = parser.parse_args()
+    if arguments.data:
+        os.environ["DISMANTLE_DATA"] = os.path.abspath(arguments.data)
+    os.makedirs(arguments.out, exist_ok=True)
+
+    every = [SuiteResults(name, arguments, run=not arguments.no_run and name in (arguments.only or names)) for name in names]
+    text = ""
+    for results, (_, title, words, tables) in zip(every, SECTIONS):
+        text += section(results, title, words, tables, arguments)
+        write_files(results, arguments, ("svg", "csv"))
+    published = every[len(SECTIONS):]
+    text += fidelity.section(published)
+    for results in published:
+        write_files(results, arguments, ("csv",))
     with open(os.path.join(arguments.out, "README.md"), "w", encoding="utf-8") as file:
-        file.write(head + text)
-    print(f"wrote {os.path.relpath(arguments.out)}: {trials} trials, {seconds:.0f} s")
+        file.write(head(every, arguments) + text)
+    print(f"wrote {os.path.relpath(arguments.out)}: {sum(len(r.trials) for r in every)} of {sum(r.planned for r in every)} trials, "
+          f"{sum(r.seconds() for r in every):.0f} s")
 
 
 if __name__ == "__main__":
