@@ -10,7 +10,12 @@ SUITES = ["paper_translation", "paper_rotation", "paper_sequence"]
 DEFAULTS = ["guided", "blocking"]
 
 # Why our run with the paper's settings is weaker: {(assembly, in what): reason}. Only what a look at the run has shown.
+THINNING = ("the path was found, but thinned by a length of 0.1 instead of a share of the tolerance, so that the verifier refused it each time until the search "
+            "gave up; mended, it is solved")
 REASONS = {
+    ("two_part/dovetail_blind", "success"): THINNING,
+    ("two_part/skew_peg", "success"): THINNING,
+    ("two_part/zslot_4step", "success"): THINNING,
 }
 
 
