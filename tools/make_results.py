@@ -60,7 +60,8 @@ def section(results, title, words, tables, arguments):
     text = f"\n## {title}\n\n{words}\n"
     if not results.trials:
         return text + f"\n{results.progress() if results.planned else 'Its assemblies are not here'}.\n"
-    text += f"\n{len(results.assemblies())} assemblies, {results.progress()}: {', '.join(results.assemblies())}. Most solved: {best(results)}.\n"
+    count = len(results.assemblies())
+    text += f"\n{count} assembl{'y' if count == 1 else 'ies'}, {results.progress()}: {', '.join(results.assemblies())}. Most solved: {best(results)}.\n"
     for table, heading, figures in tables:
         rows = results.table(table)
         text += f"\n### {heading}\n\n{markdown(rows)}\n{markdown(paper.table(figures))}"

@@ -29,8 +29,9 @@ def published_solved(row):
 
 
 def depth_text(row):
-    """Depths that our verifier would refuse are marked."""
-    return row["depth"] + (" (refused)" if row["depth"] and float(row["depth"]) > TOLERANCE else "")
+    """Depths that our verifier would refuse are marked. An overlap of the parts as assembled is none of the path's."""
+    refused = row["depth"] and "as assembled" not in row["depth"] and float(row["depth"].split()[0]) > TOLERANCE
+    return row["depth"] + (" (refused)" if refused else "")
 
 
 def trial_of(all_results, assembly, planners):
@@ -94,16 +95,19 @@ def balance(pairs):
         return "None of them has been run.\n"
     both = [(r, t) for r, t in run if published_solved(r) and is_solved(t)]
     names = {"better": [r["assembly"] for r, t in run if is_solved(t) and not published_solved(r)],
-             "worse": [r["assembly"] for r, t in run if published_solved(r) and not is_solved(t)]}
+             "worse": [r["assembly"] for r, t in run if published_solved(r) and not is_solved(t)],
+             "neither": [r["assembly"] for r, t in run if not published_solved(r) and not is_solved(t)]}
+    words = {"better": "only here", "worse": "only by the published code", "neither": "by neither"}
     text = f"Of {len(run)} assemblies, {len(both)} are solved by both"
-    text += "".join(f", {len(n)} {'only here' if kind == 'better' else 'only by the published code'} ({', '.join(n)})" for kind, n in names.items() if n)
+    text += "".join(f", {len(n)} {words[kind]} ({', '.join(n)})" for kind, n in names.items() if n)
     text += ". "
     if both:
         faster = sum(float(t["cpu s"]) <= float(r["plan s"]) + float(r["build s"]) for r, t in both)
         fewer = sum(float(t.get("counts.steps") or 0) <= float(r["steps"]) for r, t in both)
         text += f"Of those of both, {faster} take less CPU time here and {len(both) - faster} more, {fewer} take fewer or as many simulated steps and {len(both) - fewer} more. "
     marked = sum("(refused)" in depth_text(r) for r, _ in run)
-    return text + f"{marked} of the published paths are deeper than our verifier allows at the vertices already; every path here is certified along its whole length.\n"
+    return text + (f"{marked} of the {sum(published_solved(r) for r, _ in run)} published paths {'is' if marked == 1 else 'are'} deeper at a vertex than our verifier allows; "
+                   "every path here is certified along its whole length.\n")
 
 
 def section(all_results):
