@@ -100,6 +100,11 @@ def head(every, arguments):
     trials = [t for results in every for t in results.trials]
     claimed = [t for t in trials if not is_solved(t) and t["outcome"] == "solved"]
     refused = sum(t["verified"] == "no" for t in claimed)
+    starved = sum(t["outcome"] == "wall_limit" for t in trials)
+    note = f" {arguments.note}" if arguments.note else ""
+    if starved:
+        note += (f" **{starved} trial{'s were' if starved > 1 else ' was'} ended by the limit of wall-clock time**, before the limit of CPU time: the machine was busy with other work, "
+                 "and what such a planner solves within its CPU time is not known.")
     return f"""# Results
 
 All planners on the same assemblies, made by one command, which resumes a run that was interrupted:
@@ -109,7 +114,7 @@ tools/make_results.py --data DIR
 ```
 
 {how_it_was_run(every)}
-{len(trials)} trials, {sum(r.seconds() for r in every) / 3600:.1f} hours of wall-clock time of the planning processes in all. The page was written by {output_of(arguments.program, "--version").splitlines()[0]}.{" " + arguments.note if arguments.note else ""}
+{len(trials)} trials, {sum(r.seconds() for r in every) / 3600:.1f} hours of wall-clock time of the planning processes in all. The page was written by {output_of(arguments.program, "--version").splitlines()[0]}.{note}
 
 How to read it: a trial is **solved** when the planner says so *and* the verifier, in a process of its own and on the original triangles,
 finds the plan valid; {refused} trials were claimed and refused, of {len(claimed) - refused} the verification did not end within its limit. In brackets: the 95 % interval of Wilson, then
