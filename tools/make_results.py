@@ -70,8 +70,8 @@ def section(results, title, words, tables, arguments):
             continue
         text += ("\nBeside the paper, judged by the 95 % interval of our share (equal: the paper's share lies within it):\n\n"
                  f"{paper.compared(figures, rows)}\n{paper.unsolved_endings(results, [paper.OURS[name] for name in figures['rows']])}")
-    text += ("\n### Assemblies and planners\n\nMedian CPU seconds of the solved trials, with solved/trials where there are several seeds; otherwise how the trials ended.\n\n"
-             + markdown(matrix(results)))
+    text += ("\n### Assemblies and planners\n\nMedian CPU seconds of the solved trials, with solved/trials where there are several seeds; "
+             f"otherwise how the trials ended.\n\n{markdown(matrix(results))}")
     text += f"\n{without_solution(results)}"
     text += f"\n### Success over time\n\n![Share of trials solved within a time]({results.name}.svg)\n"
     text += f"\n### Precision of the plans\n\n{markdown(results.table('precision'))}"
@@ -103,8 +103,8 @@ def head(every, arguments):
     starved = sum(t["outcome"] == "wall_limit" for t in trials)
     note = f" {arguments.note}" if arguments.note else ""
     if starved:
-        note += (f" **{starved} trial{'s were' if starved > 1 else ' was'} ended by the limit of wall-clock time**, before the limit of CPU time: the machine was busy with other work, "
-                 "and what such a planner solves within its CPU time is not known.")
+        note += (f" **{starved} trial{'s were' if starved > 1 else ' was'} ended by the limit of wall-clock time**, before the limit of CPU time: "
+                 "the machine was busy with other work, and what such a planner solves within its CPU time is not known.")
     return f"""# Results
 
 All planners on the same assemblies, made by one command, which resumes a run that was interrupted:
@@ -114,15 +114,17 @@ tools/make_results.py --data DIR
 ```
 
 {how_it_was_run(every)}
-{len(trials)} trials, {sum(r.seconds() for r in every) / 3600:.1f} hours of wall-clock time of the planning processes in all. The page was written by {output_of(arguments.program, "--version").splitlines()[0]}.{note}
+{len(trials)} trials, {sum(r.seconds() for r in every) / 3600:.1f} hours of wall-clock time of the planning processes in all.
+The page was written by {output_of(arguments.program, "--version").splitlines()[0]}.{note}
 
 How to read it: a trial is **solved** when the planner says so *and* the verifier, in a process of its own and on the original triangles,
-finds the plan valid; {refused} trials were claimed and refused, of {len(claimed) - refused} the verification did not end within its limit. In brackets: the 95 % interval of Wilson, then
-solved/trials; seeds that changed nothing are one observation. The paper's limits are named in each section; where ours are smaller, a row says what a planner solves within them, not
-what it can solve at all. The assemblies are few and of our choice, so the intervals are wide; the paper's figures beside ours are of
-its own data set of thousands, and are there for their form and for the order of the methods, not for the numbers.
-Times are CPU seconds, from reading the input to the plan. **Precision** is the deepest penetration that the verifier certifies along a whole plan, beyond the overlap of the parts when
-assembled, of an assembly scaled to size 10; the tolerance is in the table above.
+finds the plan valid; {refused} trials were claimed and refused, of {len(claimed) - refused} the verification did not end within its limit.
+In brackets: the 95 % interval of Wilson, then solved/trials; seeds that changed nothing are one observation. The paper's limits are named in
+each section; where ours are smaller, a row says what a planner solves within them, not what it can solve at all.
+The assemblies are few and of our choice, so the intervals are wide; the paper's figures beside ours are of its own data set of
+thousands, and are there for their form and for the order of the methods, not for the numbers.
+Times are CPU seconds, from reading the input to the plan. **Precision** is the deepest penetration that the verifier certifies along a whole
+plan, beyond the overlap of the parts when assembled, of an assembly scaled to size 10; the tolerance is in the table above.
 
 [benchmark.md](../benchmark.md) says how suites, limits and reports work; [planners](../planners/README.md) what the path planners do.
 """

@@ -25,7 +25,7 @@ class MakeResults(BenchTest):
         for name, category in (("two_part", "two-part"), ("rotational", "puzzle"), ("multi_part", "sample")):
             self.suite(f"  t_rrt: {T_RRT}{more_seeds}}}\n  none: {NONE}\n", f"  - {{sample: l_slot, category: {category}}}\n",
                        name=f"suites/results_{name}.yaml")
-        for name, assembly in (("translation", "two_part/skew_peg"), ("rotation", "rotational/key_in_lock")):
+        for name, assembly in (("translation", "two_part/keyhole_2step"), ("rotation", "rotational/key_in_lock")):
             self.suite(f"  paper: {T_RRT if name == 'rotation' else NONE[:-1]}}}\n  guided: {T_RRT}}}\n", f"  - {{sample: l_slot, name: {assembly}}}\n",
                        name=f"suites/results_paper_{name}.yaml")
         self.suite(f"  paper: {NONE}\n", "  - {path: $DISMANTLE_NOT_HERE/x, optional: true}\n", name="suites/results_paper_sequence.yaml")
@@ -54,10 +54,11 @@ class MakeResults(BenchTest):
     def test_beside_the_published_code(self):
         self.suites()
         page = self.make("--only", "paper_translation", "--only", "paper_rotation")
-        self.assertRegex(page, r"\| two_part/skew_peg \| solved \| 4\.0 \| 30 \| 3200 \| 1 \| 0\.016 \(refused\) \| \*exhausted\* \|")
+        self.assertRegex(page, r"\| two_part/keyhole_2step \| solved \| 2\.1 \| 27 \| 2800 \| 2 \| 0\.010 \| \*exhausted\* \|")
+        self.assertRegex(page, r"\| two_part/skew_peg \| solved \| .* \| 0\.016 \(refused\) \| not run \|")
         self.assertRegex(page, r"\| rotational/key_in_lock \| not in 100 s \| .* \| solved, verified \|")
-        self.assertIn("Of 2 assemblies, 0 are solved by both, 1 only here (rotational/key_in_lock), 1 only by the published code (two_part/skew_peg).", page)
-        self.assertRegex(page, r"- two_part/skew_peg, success: ended with `exhausted` after .*; not explained")
+        self.assertIn("Of 2 assemblies, 0 are solved by both, 1 only here (rotational/key_in_lock), 1 only by the published code (two_part/keyhole_2step).", page)
+        self.assertRegex(page, r"- two_part/keyhole_2step, success: ended with `exhausted` after .*; not explained")
         self.assertIn("`paper_sequence`: 0 trials.", page)
 
     def test_what_is_not_run_is_said(self):

@@ -85,5 +85,6 @@ def common_times(results):
     ours = [sum(of[a] for a in common) / len(common) for of in (full, progressive)]
     theirs = [TIMES["rows"][name][-1] for name in ("Full BFS", "Prog. BFS")]
     kind = "the same order" if (ours[0] > ours[1]) == (theirs[0] > theirs[1]) else "the other order"
-    return (f"Over the {len(common)} assemblies that both solved, `full_bfs` takes {ours[0]:.3g} s and `prog_bfs` {ours[1]:.3g} s a part: {kind} as in the paper, "
-            f"by a factor of {ours[0] / ours[1]:.2g} ({theirs[0] / theirs[1]:.2g} in the paper). The times themselves are of other machines, with other simulators.\n")
+    return (f"Over the {len(common)} assemblies that both solved, `full_bfs` takes {ours[0]:.3g} s and `prog_bfs` {ours[1]:.3g} s a part: "
+            f"{kind} as in the paper, by a factor of {ours[0] / ours[1]:.2g} ({theirs[0] / theirs[1]:.2g} in the paper). "
+            "The times themselves are of other machines, with other simulators.\n")
