@@ -70,6 +70,7 @@ def section(results, title, words, tables, arguments):
             continue
         text += ("\nBeside the paper, judged by the 95 % interval of our share (equal: the paper's share lies within it):\n\n"
                  f"{paper.compared(figures, rows)}\n{paper.unsolved_endings(results, [paper.OURS[name] for name in figures['rows']])}")
+        text += paper.attempt_limit(results) if results.name == "multi_part" else ""
     text += ("\n### Assemblies and planners\n\nMedian CPU seconds of the solved trials, with solved/trials where there are several seeds; "
              f"otherwise how the trials ended.\n\n{markdown(matrix(results))}")
     text += f"\n{without_solution(results)}"
