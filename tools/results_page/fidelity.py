@@ -16,7 +16,8 @@ REASONS = {
     ("two_part/dovetail_blind", "success"): THINNING,
     ("two_part/skew_peg", "success"): THINNING,
     ("two_part/zslot_4step", "success"): THINNING,
-    ("threads/m6_left_hand_long_nut", "time"): "distances are exact, to triangles, in every step: with `simulator.distance=grid`, as published, it takes 53 s",
+    ("threads/m6_left_hand_long_nut", "time"): "distances are exact, to triangles, in every step: with `simulator.distance=grid`, as published, "
+                                               "it takes 53 s",
 }
 
 

@@ -76,8 +76,8 @@ def attempt_limit(results):
     """What it means for `queue` that an attempt has no limit, where that is so."""
     if "for a path" in results.setup()["limits"]:
         return ""
-    return ("\nAn attempt to take out one part has no limit of its own here, and 120 s in the paper: a planner with `queue` may spend the whole trial on a part that is still "
-            "blocked. With 5 s for an attempt, `full_bfs` takes machine(parts=8) apart in 20 s and `rrt` in 28 s.\n")
+    return ("\nAn attempt to take out one part has no limit of its own here, and 120 s in the paper: a planner with `queue` may spend the whole "
+            "trial on a part that is still blocked. With 5 s for an attempt, `full_bfs` takes machine(parts=8) apart in 20 s and `rrt` in 28 s.\n")
 
 
 def common_times(results):
@@ -93,6 +93,7 @@ def common_times(results):
     ours = [sum(of[a] for a in common) / len(common) for of in (full, progressive)]
     theirs = [TIMES["rows"][name][-1] for name in ("Full BFS", "Prog. BFS")]
     kind = "the same order" if (ours[0] > ours[1]) == (theirs[0] > theirs[1]) else "the other order"
-    return (f"Over the {len(common)} assembl{'y' if len(common) == 1 else 'ies'} that both solved, `full_bfs` takes {ours[0]:.3g} s and `prog_bfs` {ours[1]:.3g} s a part: "
+    return (f"Over the {len(common)} assembl{'y' if len(common) == 1 else 'ies'} that both solved, `full_bfs` takes {ours[0]:.3g} s "
+            f"and `prog_bfs` {ours[1]:.3g} s a part: "
             f"{kind} as in the paper, by a factor of {ours[0] / ours[1]:.2g} ({theirs[0] / theirs[1]:.2g} in the paper). "
             "The times themselves are of other machines, with other simulators.\n")
