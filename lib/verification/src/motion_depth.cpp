@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 #include <utility>
 
@@ -13,9 +14,12 @@
 namespace dismantle {
 namespace {
 
+/// Share of the resolution that a measurement may be off. The rest is for the motion between measurements.
+constexpr double kMeasured = 0.25;
+
 struct Sample {
-  double u = 0;  // segment index plus position in the segment
-  double depth = 0;
+  double u = 0;      // segment index plus position in the segment
+  double depth = 0;  // upper bound
 };
 
 struct Interval {
@@ -64,10 +68,11 @@ struct MotionDepthMeter::Impl {
   static double resolution(const MotionDepthOptions& options, const std::optional<MotionDepth>& worst) {
     return std::max(options.absolute, options.relative * (worst ? worst->depth : 0));
   }
-  /// Least depth that leaves nothing more to find.
+  /// Least depth that leaves nothing more to find, or more than the caller wants to know.
   static double enough(const MotionDepthOptions& options, double allowed) {
     const double resolved = std::min(options.at_most - options.absolute, options.at_most / (1 + options.relative));
-    return std::max(allowed, resolved);
+    const double beyond = std::nextafter(allowed + options.stop_above, std::numeric_limits<double>::infinity());
+    return std::min(std::max(allowed, resolved), beyond);
   }
   Eigen::Vector3d size_of(PartId part) const { return assembly.parts.at(part).mesh->box().size(); }
   static void raise(std::optional<MotionDepth>& worst, const MotionDepth& here) {
@@ -80,39 +85,40 @@ struct MotionDepthMeter::Impl {
             const RunContext& context, double allowed, std::optional<MotionDepth>& worst) {
     // Deeper than this would be a new worst.
     const auto known = [&] { return worst ? allowed + worst->excess() : 0; };
+    // A lower bound of the depth there; with the tolerance it is an upper one.
     const auto measured_to = [&](double u, DepthSearch search) {
       search.enough = std::min(search.enough, enough(options, allowed));
       const Penetration found =
           deepest_penetration(body(part), motion.at(u), body(other.part), other.pose, search, context);
       if (found.depth > search.from) raise(worst, {part, other.part, found.depth, allowed, found.point, false});
-      return Sample{u, found.depth};
+      return found.depth;
     };
-    // A measurement may be off by a quarter of the resolution. The rest is for the motion between measurements.
     const auto fine = [&](double u, double from) {
-      return measured_to(u, {.tolerance = 0.25 * resolution(options, worst), .from = from});
+      const double error = kMeasured * resolution(options, worst);
+      return Sample{u, measured_to(u, {.tolerance = error, .from = from}) + error};
     };
     // How fine to measure follows from the depth, which nobody knows at first: begin with the deepest there can be.
     const auto measure_first = [&](double u) {
       const double most = 0.5 * std::min(size_of(part).minCoeff(), size_of(other.part).minCoeff());
-      Sample first{u, 0};
-      for (double error = 0.25 * options.relative * most;; error *= 0.25) {
-        error = std::max(error, 0.25 * options.absolute);
-        first = measured_to(u, {.tolerance = error, .from = first.depth});
-        if (error <= 0.25 * std::max(options.absolute, options.relative * first.depth) || context.should_stop() ||
-            first.depth >= enough(options, allowed))
+      double depth = 0, error = kMeasured * options.relative * most;
+      for (;; error *= 0.25) {
+        error = std::max(error, kMeasured * options.absolute);
+        depth = measured_to(u, {.tolerance = error, .from = depth});
+        if (error <= kMeasured * std::max(options.absolute, options.relative * depth) || context.should_stop() ||
+            depth >= enough(options, allowed))
           break;
       }
-      if (!worst) raise(worst, {part, other.part, first.depth, allowed, motion.at(u).t, false});
-      return first;
+      if (!worst) raise(worst, {part, other.part, depth, allowed, motion.at(u).t, false});
+      return Sample{u, depth + error};
     };
     // Exact depths are needed of what may be the worst only: most places are found in one coarse pass to be less deep
     // than half of it, or in one fine pass to be no deeper.
     const auto measure = [&](double u) {
       const double most = known();
       if (most <= 2 * resolution(options, worst)) return fine(u, 0);
-      const Sample coarse = measured_to(u, {.tolerance = 0.25 * most, .from = 0.5 * most, .enough = 0.75 * most});
-      if (coarse.depth < 0.75 * most) return Sample{u, coarse.depth + 0.25 * most};
-      return fine(u, std::max(most, coarse.depth));
+      const double error = 0.25 * most;
+      const double coarse = measured_to(u, {.tolerance = error, .from = 0.5 * most, .enough = 0.75 * most});
+      return coarse < 0.75 * most ? Sample{u, coarse + error} : fine(u, std::max(most, coarse));
     };
     const auto interval = [&](const Sample& a, const Sample& b) {
       return Interval{a, b, std::min(0.5 * (a.depth + b.depth + motion.travel(a.u, b.u)), options.at_most) - allowed};
@@ -171,8 +177,8 @@ struct MotionDepthMeter::Impl {
           const SolidMotion solids(motion.poses(), {other.pose}, x, y, limits.most());
           if (!solids.forward.swept_box().overlaps(y.box)) break;
           const VerifyBudget& counts = verifier.options().budget;
-          geometry::Budget budget{counts.tests + counts.tests_per_segment * motion.segments(),
-                                  counts.patches, 0, &context, counts.resolution};
+          geometry::Budget budget{counts.tests + counts.tests_per_segment * motion.segments(), counts.patches, 0,
+                                  &context, counts.resolution};
           const geometry::Finding found = geometry::check_pair(x, y, solids.forward, solids.backward(), limits, budget);
           if (found.answer == geometry::Answer::certified) break;
           if (context.should_stop() || known() > options.stop_above || ++measured > options.most_poses) return false;
