@@ -65,15 +65,19 @@ double MotionStates::free_distance(SubassemblyId id, const State& state, std::si
       }
       nearest = lo;
       translation.first = other;
-      if (nearest < params_.least_step * tolerance_)
+      if (nearest < least_step(part))
         return nearest;  // too short to be kept, so it does not matter which blocker is first
     }
   return std::max(0.0, nearest - params_.retreat * tolerance_);
 }
 
-void MotionStates::add_stops(std::vector<State>& states, std::size_t from, std::size_t direction,
-                             double distance) const {
-  const double least = params_.least_step * tolerance_;
+/// What a part has to travel to be elsewhere depends on its size, not on how finely it is verified.
+double MotionStates::least_step(PartId part) const {
+  return params_.least_step * state_.assembly().parts[part].mesh->box().size().norm();
+}
+
+void MotionStates::add_stops(std::vector<State>& states, std::size_t from, std::size_t direction, double distance,
+                             double least) const {
   for (unsigned k = params_.stops; k > 0 && states.size() < params_.states; --k) {
     const double length = distance * k / params_.stops;
     if (length < least) return;
@@ -110,7 +114,7 @@ std::optional<std::vector<Vector3d>> MotionStates::path_out(const GroupState& gr
       translation.first = translation.in_way.front();
       const double distance = free_distance(id, states[s], d, translation);
       states[s].translations[d] = std::move(translation);
-      add_stops(states, s, d, distance);
+      add_stops(states, s, d, distance, least_step(state_.part_of(id)));
     }
   return std::nullopt;
 }

@@ -21,8 +21,8 @@ struct MotionStateParameters {
   std::size_t states = 24;  ///< most states of one part
   unsigned stops = 1;       ///< states per translation: at contact, and evenly spaced before it
   unsigned halvings = 12;
-  double retreat = 1;      ///< distance kept from contact; tolerances of the verifier
-  double least_step = 20;  ///< shortest translation that is kept; tolerances of the verifier
+  double retreat = 1;        ///< distance kept from contact; tolerances of the verifier
+  double least_step = 0.05;  ///< shortest translation that is kept; share of the part's diagonal
 };
 
 /// The blocking graph of each part, enriched with its motion states: the blockers from every state along every
@@ -66,7 +66,9 @@ class MotionStates {
   };
   Subassemblies in_way(const GroupState& group, SubassemblyId id, const State& state, std::size_t direction);
   double free_distance(SubassemblyId id, const State& state, std::size_t direction, Translation& translation) const;
-  void add_stops(std::vector<State>& states, std::size_t from, std::size_t direction, double distance) const;
+  void add_stops(std::vector<State>& states, std::size_t from, std::size_t direction, double distance,
+                 double least) const;
+  double least_step(PartId part) const;
 
   blocking::DisassemblyState& state_;
   blocking::StraightMotion& straight_;

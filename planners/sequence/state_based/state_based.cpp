@@ -29,7 +29,7 @@ void StateBasedParameters::describe(Schema<StateBasedParameters>& s) {
   s.advanced("stops", &StateBasedParameters::stops, {1, 100});
   s.advanced("halvings", &StateBasedParameters::halvings, {1, 50});
   s.advanced("retreat", &StateBasedParameters::retreat, {0, 1e6});
-  s.advanced("least_step", &StateBasedParameters::least_step, {.min = 0, .max = 1e6, .min_open = true});
+  s.advanced("least_step", &StateBasedParameters::least_step, {.min = 0, .max = 1, .min_open = true});
   s.add("groups", &StateBasedParameters::groups,
         {.doc = "When no single part is free, remove the smallest free group."});
   s.advanced("group_proposals", &StateBasedParameters::group_proposals, {1});

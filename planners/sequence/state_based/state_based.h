@@ -21,8 +21,8 @@ struct StateBasedParameters {
   unsigned halvings = 12;  ///< Bisections to find where a translation meets a part: 12 resolve a 4096th of its length.
   /// Distance before contact at which a translation stops, in multiples of verify.max_penetration.
   double retreat = 1;
-  /// Shortest translation that is kept, and least distance between two states, in multiples of verify.max_penetration.
-  double least_step = 20;
+  /// Shortest translation that is kept, and least distance between two states; share of the part's diagonal.
+  double least_step = 0.05;
   bool groups = false;
   /// Largest number of subassemblies proposed to the verifier before a group of parts is given up.
   unsigned group_proposals = 8;
