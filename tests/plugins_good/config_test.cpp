@@ -21,7 +21,7 @@ TEST_F(Config, DefaultsWithoutAnyFile) {
   EXPECT_EQ(config.run.path_timeout, 120);
   EXPECT_EQ(config.run.path_steps, 0);
   EXPECT_EQ(config.run.timeout, 7200);
-  EXPECT_EQ(config.verify.max_penetration, 0.01);
+  EXPECT_EQ(config.verify.max_penetration, 0.001);
   EXPECT_EQ(config.assembly.subdivide, PrepareOptions{}.subdivide);
   EXPECT_EQ(std::get<std::string>(config.path_planner.parameters.at("motion")), "auto");
   EXPECT_EQ(config.origins.at("run.seed"), "default");

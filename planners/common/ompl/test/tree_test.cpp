@@ -16,12 +16,14 @@ namespace {
 
 using fake::Ruling;
 
+constexpr double kTolerance = 0.01;
+
 struct Task {
   explicit Task(const char* sample, const ParamSet& parameters, const char* moving) {
     PrepareReport report;
     assembly = prepare_assembly(samples::make(sample, parameters), sample, "", {}, context, report);
-    prepared = simulator.prepare(assembly, 0.01, context);
-    verifier = std::make_unique<Verifier>(assembly, VerifyOptions{});
+    prepared = simulator.prepare(assembly, kTolerance, context);
+    verifier = std::make_unique<Verifier>(assembly, VerifyOptions{.max_penetration = kTolerance});
     for (const auto& part : assembly.parts) (part.name == moving ? scene.moving : scene.fixed).push_back({part.id, {}});
   }
   Ruling ruling_of(const Path& path) const {
@@ -33,7 +35,7 @@ struct Task {
   PathResult plan(std::uint64_t seed, dismantle::Budget effort, const TreeParameters& p = {},
                   std::function<Ruling(const Path&)> rule_with = {}) const {
     const fake::RuleChecker checker(rule_with ? rule_with : [this](const Path& path) { return ruling_of(path); });
-    const PathQuery query{assembly, simulator, *prepared, scene, effort, 0.01, checker};
+    const PathQuery query{assembly, simulator, *prepared, scene, effort, kTolerance, checker};
     RunContext own;
     own.rng = Rng(seed);
     own.cancel = cancel;
