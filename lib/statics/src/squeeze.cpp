@@ -15,6 +15,7 @@ using Vec3 = Eigen::Vector3d;
 
 constexpr double kMoves = 1e-3;                           // of the largest motion
 constexpr double kSqueezes[] = {0.1, 0.01, -0.1, -0.01};  // of the weight of the lighter body
+constexpr double kMore = 2;                               // of the pressure: as much as a contact is squeezed at least
 
 /// The largest motion of a point of the contact, a against b.
 double moved_at(const Pile& pile, const Contact& c, const Motions& motion) {
@@ -40,11 +41,16 @@ ContactForces squeezed_forces(const Pile& pile, const ContactForces& forces, con
     order.emplace_back(-pressure_of(c, forces[k]) / weight, k);
   }
   std::sort(order.begin(), order.end());
-  for (const auto& [pressure, k] : order)
-    for (const double share : kSqueezes) {
+  for (const auto& [pressure, k] : order) {
+    const Contact& c = pile.contacts[k];
+    const double weight = lighter_weight(pile, c);
+    std::vector<double> squeezes;
+    for (const double share : kSqueezes) squeezes.push_back(share * weight);
+    // The solver takes off what is squeezed where the same pressure suffices; more than that it cannot take off.
+    squeezes.push_back(kMore * std::max(weight, pressure_of(c, forces[k])));
+    for (const double squeeze : squeezes) {
       if (stop && stop()) return {};
-      const Contact& c = pile.contacts[k];
-      const Vec3 push = share * lighter_weight(pile, c) / static_cast<double>(c.points.size()) * c.normal;
+      const Vec3 push = squeeze / static_cast<double>(c.points.size()) * c.normal;
       Pile squeezed = pile;
       for (const Vec3& p : c.points) {
         squeezed.pushes.push_back({c.a, p, push});
@@ -56,6 +62,7 @@ ContactForces squeezed_forces(const Pile& pile, const ContactForces& forces, con
       if (press_differently(pile, forces, found.forces) && check_equilibrium(pile, found.forces).empty())
         return std::move(found.forces);
     }
+  }
   return {};
 }
 
