@@ -1,6 +1,8 @@
 #include "dismantle/statics/balance.h"
 
 #include <algorithm>
+#include <cmath>
+#include <deque>
 
 #include "dismantle/statics/certificates.h"
 #include "springs.h"
@@ -10,6 +12,10 @@ namespace {
 
 constexpr double kBalanced = 1e-6;
 constexpr unsigned kFewSteps = 25;  // of Newton's method: the next program may be harder
+/// Coulomb: what moves on by the same length in this many steps, up to this share, falls. At this rate it would not
+/// come to rest in all the steps that there are.
+constexpr int kSteadySteps = 8;
+constexpr double kSteady = 0.02;
 
 Balance result_of(const Springs& springs, const Eigen::VectorXd& anchor, bool balanced) {
   Balance result{balanced, springs.residual(anchor), springs.forces(), springs.motion_of(springs.at()),
@@ -40,10 +46,13 @@ bool passes(const Pile& pile, const Balance& by) {
          check_created(pile, by.forces, by.displacement).empty();
 }
 
-Balance coulomb(Springs& springs, const std::function<bool()>& stop) {
+/// `steady`: ended with a fall whose speed does not change any more.
+Balance coulomb(Springs& springs, bool& steady, const std::function<bool()>& stop) {
   Eigen::VectorXd anchor = springs.at();
   double best = 1e300, share = 1, enough = kBalanced;
   int since = 0;
+  steady = false;
+  std::deque<double> residuals;  // of the last steps
   for (int k = 0; k < 200; ++k) {
     anchor = springs.at();
     const unsigned before = springs.factorizations();
@@ -57,6 +66,12 @@ Balance coulomb(Springs& springs, const std::function<bool()>& stop) {
       Balance found = result_of(springs, anchor, true);
       if (worst < 1e-3 * kBalanced || passes(springs.pile(), found)) return found;
       enough = 0.3 * worst;
+    }
+    residuals.push_front(residual);
+    if (residuals.size() > static_cast<std::size_t>(kSteadySteps)) {
+      steady = since > kSteadySteps && residual > change && std::abs(residuals.back() - residual) < kSteady * residual;
+      if (steady) break;
+      residuals.pop_back();
     }
     if (k % 4 == 2 && springs.solve_coupled(stop)) return result_of(springs, springs.at(), true);
     // Long chains give way far: the proximal term alone holds them back.
@@ -88,8 +103,9 @@ Balance balance(const Pile& pile, FrictionLaw law, const std::function<bool()>& 
     if (nearby.solve_coupled(stop))
       if (Balance warm = result_of(nearby, nearby.at(), true); passes(pile, warm)) return warm;
   }
-  Balance found = coulomb(springs, stop);
-  if (!springs.is_long() || passes(pile, found) || (stop && stop())) return found;
+  bool steady = false;
+  Balance found = coulomb(springs, steady, stop);
+  if (!springs.is_long() || steady || passes(pile, found) || (stop && stop())) return found;
   // A long chain gives way far: once more from the displacement of the associated law, which lies nearer.
   Springs any(pile, FrictionLaw::associated);
   if (!associated(any, stop).balanced) return found;
@@ -97,7 +113,7 @@ Balance balance(const Pile& pile, FrictionLaw law, const std::function<bool()>& 
   again.start_at(any.at());
   if (again.solve_coupled(stop))
     if (Balance second = result_of(again, again.at(), true); passes(pile, second)) return second;
-  Balance second = coulomb(again, stop);
+  Balance second = coulomb(again, steady, stop);
   return passes(pile, second) ? second : found;
 }
 
