@@ -84,6 +84,118 @@ double balanced_up_to(const Pile& pile, const Vec3& axis, const Motions& near, c
   return found < slides || slides == kSteepest ? found : largest_up_to(kSteepest);
 }
 
+/// The least horizontal push at the centre of a body that some motion gives way to.
+class PushSearch {
+ public:
+  PushSearch(const Pile& pile, std::uint32_t body, const Stop& stop)
+      : pile_(pile), pushed_(pile), body_(body), stop_(stop), u_(pile.down.unitOrthogonal()), v_(pile.down.cross(u_)) {
+    for (const Body& b : pile.bodies) total_ += b.fixed ? 0 : b.weight;
+    known_ = kMostPush * total_;
+    if (Balance rest = balance(pile, FrictionLaw::associated, stop); rest.balanced)
+      near_ = std::move(rest.displacement);
+  }
+
+  std::optional<LeastPush> run() {
+    // Directions that are far from each other first: those between them follow.
+    for (int stride = kDirections / 4, first = 0; stride > 0; first = stride /= 2)
+      for (int k = first; k < kDirections; k += first == 0 ? stride : 2 * stride)
+        look_along({std::cos(2 * M_PI * k / kDirections), std::sin(2 * M_PI * k / kDirections)});
+    return std::move(least_);
+  }
+
+ private:
+  using Vec2 = Eigen::Vector2d;
+  static constexpr int kDirections = 16;
+  static constexpr double kMostPush = 100;  // of all weights: no more is needed
+  /// How much further than the least push: directions at right angles that take it show that all between them do.
+  static constexpr double kFurther = M_SQRT2;
+  struct Cut {  // a motion of falling: pushes with forward * push > resistance are not balanced
+    Vec2 forward;
+    double resistance;
+    Motions motion;
+    /// How far pushes along the direction are not excluded.
+    double reach(const Vec2& direction) const {
+      const double along = forward.dot(direction);
+      return along > 0 ? resistance / along : std::numeric_limits<double>::infinity();
+    }
+  };
+
+  void look_along(const Vec2& direction) {
+    // A few weights move most bodies; what they do not move takes longer to judge.
+    for (const double most : {std::min(total_, known_), known_}) {
+      if (is_balanced(most * direction)) continue;
+      const auto probe = [&](double x) { return probe_at(x, direction); };
+      if (most == known_ && reach(direction) > kFurther * known_ && probe(kFurther * known_).balanced) continue;
+      const double force = largest_balanced(std::min(most, reach(direction)), probe, stop_);
+      if (!(force < (1 - kNear) * most)) continue;
+      const Cut* nearest = nearest_cut(direction);
+      least_ = {body_, force, direction.x() * u_ + direction.y() * v_, nearest != nullptr ? nearest->motion : motion_};
+      known_ = force;
+      return;
+    }
+  }
+
+  Probe probe_at(double x, const Vec2& direction) {
+    const Vec2 push = x * direction;
+    pushed_.pushes = pile_.pushes;
+    pushed_.pushes.push_back({body_, pile_.bodies[body_].center, push.x() * u_ + push.y() * v_});
+    Balance found = balance(pushed_, FrictionLaw::associated, stop_, near_);
+    if (found.balanced) {
+      balanced_.push_back(push);
+      return {true, {}};
+    }
+    motion_ = std::move(found.falling);
+    if (!check_fall(pushed_, motion_).empty()) return {};
+    // The weights resist the motion by -weights, the push drives it by its force times forward.
+    double weights = work(pile_, motion_, pile_.down);
+    for (const Push& p : pile_.pushes) weights += motion_[p.body].at(p.at - pile_.bodies[p.body].center).dot(p.force);
+    const Vec2 forward(motion_[body_].v.dot(u_), motion_[body_].v.dot(v_));
+    cuts_.push_back({forward, std::max(0.0, -weights), motion_});
+    const double most = cuts_.back().reach(direction);
+    return {false, std::isfinite(most) ? std::optional(most) : std::nullopt};
+  }
+
+  const Cut* nearest_cut(const Vec2& direction) const {
+    const Cut* nearest = nullptr;
+    for (const Cut& c : cuts_)
+      if (std::isfinite(c.reach(direction)) && (nearest == nullptr || c.reach(direction) < nearest->reach(direction)))
+        nearest = &c;
+    return nearest;
+  }
+  double reach(const Vec2& direction) const {
+    const Cut* nearest = nearest_cut(direction);
+    return nearest != nullptr ? nearest->reach(direction) : std::numeric_limits<double>::infinity();
+  }
+
+  /// Between pushes that are balanced: those are a convex set, with no push at all in it.
+  bool is_balanced(const Vec2& push) const {
+    for (const Vec2& a : balanced_) {
+      if ((a - push).dot(push) >= 0 && (a.normalized() - push.normalized()).norm() < kRounding) return true;
+      for (const Vec2& b : balanced_) {
+        const double area = a.x() * b.y() - a.y() * b.x();
+        if (!(area > kRounding * a.norm() * b.norm())) continue;
+        const double by_a = (push.x() * b.y() - push.y() * b.x()) / area,
+                     by_b = (a.x() * push.y() - a.y() * push.x()) / area;
+        if (by_a >= -kRounding && by_b >= -kRounding && by_a + by_b <= 1 + kRounding) return true;
+      }
+    }
+    return false;
+  }
+  static constexpr double kRounding = 1e-9;
+
+  const Pile& pile_;
+  Pile pushed_;
+  std::uint32_t body_;
+  const Stop& stop_;
+  Vec3 u_, v_;  // horizontal
+  double total_ = 0, known_ = 0;
+  Motions near_;    // displacement without the push
+  Motions motion_;  // of the last push that was not balanced
+  std::vector<Vec2> balanced_;
+  std::vector<Cut> cuts_;
+  std::optional<LeastPush> least_;
+};
+
 }  // namespace
 
 Pile tilted(Pile pile, const Vec3& axis, double angle) {
@@ -118,39 +230,7 @@ std::optional<double> critical_tilt(const Pile& pile, const Vec3& axis, const St
 }
 
 std::optional<LeastPush> least_push(const Pile& pile, std::uint32_t body, const Stop& stop) {
-  const Vec3 u = pile.down.unitOrthogonal(), v = pile.down.cross(u);
-  double total = 0;
-  for (const Body& b : pile.bodies) total += b.fixed ? 0 : b.weight;
-  double known = 100 * total;  // no more is needed
-  std::optional<LeastPush> least;
-  Pile pushed = pile;
-  for (int k = 0; k < 16; ++k) {
-    const Vec3 direction = std::cos(k * M_PI / 8) * u + std::sin(k * M_PI / 8) * v;
-    Motions motion;
-    const auto probe = [&](double x) -> Probe {
-      pushed.pushes = pile.pushes;
-      pushed.pushes.push_back({body, pile.bodies[body].center, x * direction});
-      Balance found = balance(pushed, FrictionLaw::associated, stop);
-      if (found.balanced) return {true, {}};
-      motion = std::move(found.falling);
-      if (!check_fall(pushed, motion).empty()) return {};
-      // The weights resist the motion by -weights, the push drives it by its force times forward.
-      double weights = work(pile, motion, pile.down);
-      for (const Push& p : pile.pushes) weights += motion[p.body].at(p.at - pile.bodies[p.body].center).dot(p.force);
-      const double forward = motion[body].v.dot(direction);
-      return {false, forward > 0 ? std::optional(std::max(0.0, -weights / forward)) : std::nullopt};
-    };
-    // A few weights move most bodies; what they do not move takes longer to judge.
-    for (const double most : {std::min(total, known), known}) {
-      const double force = largest_balanced(most, probe, stop);
-      if (force < most) {
-        least = {body, force, direction, std::move(motion)};
-        known = force;
-      }
-      if (force < most || most == known) break;
-    }
-  }
-  return least;
+  return PushSearch(pile, body, stop).run();
 }
 
 }  // namespace dismantle::statics

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dismantle/statics/certificates.h"
+#include "dismantle/statics/limits.h"
 #include "dismantle/statics/verdict.h"
 #include "piles.h"
 
@@ -50,6 +51,13 @@ TEST(Wedged, ARowOfBlocksIsAnArchWhereFrictionIsEnough) {
     EXPECT_EQ(judge(pile_of(chain(n, height), 2, 0.98 * least)).verdict, Verdict::pressed_in) << n;
     EXPECT_EQ(judge(pile_of(chain(n, height), 2, 1.02 * least)).verdict, Verdict::stands) << n;
   }
+}
+
+// A block of a long arch between walls that lies still: no push along the row, nor across it, is too much for its
+// neighbours and their friction.
+TEST(Wedged, NoPushMovesABlockOfALongRow) {
+  const Pile pile = pile_of(chain(60, 1), 2, 0.2);
+  for (const std::uint32_t body : {2U, 30U, 60U}) EXPECT_FALSE(least_push(pile, body)) << body;
 }
 
 }  // namespace
