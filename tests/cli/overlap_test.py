@@ -1,6 +1,7 @@
 """Assemblies as they come from CAD, whose parts overlap: what comes apart, what is forced, and what the plan says of it."""
 import json
 import math
+import re
 
 from program import CliTest
 
@@ -36,6 +37,23 @@ def turned(rings, closed, around=48):
         for i, j in ((i, (i + 1) % around) for i in range(around)):
             faces += [(len(points) - 1, 1 + j, 1 + i), (top + i, top + j, len(points))]
     return "".join("v %.9g %.9g %.9g\n" % p for p in points) + "".join("f %d %d %d\n" % f for f in faces)
+
+
+def revolved(profile, closed, around=48):
+    """Lines of an LDraw file: a surface of revolution about x through the corners (x, radius) of a profile that goes round
+    counter-clockwise (closed), or from end to end (flat ends)."""
+    def ring(x, r):
+        return [(x, r * math.cos(2 * math.pi * i / around), r * math.sin(2 * math.pi * i / around)) for i in range(around)]
+
+    def line(*corners):
+        return "%d 16 %s\n" % (len(corners), " ".join("%.6f" % v for p in corners for v in p))
+    rings, out = [ring(*p) for p in profile], "0 BFC CERTIFY CCW\n"
+    for a, b in zip(rings, rings[1:] + (rings[:1] if closed else [])):
+        out += "".join(line(a[i], a[(i + 1) % around], b[(i + 1) % around], b[i]) for i in range(around))
+    for end, step in () if closed else ((rings[0], -1), (rings[-1], 1)):
+        middle = (end[0][0], 0, 0)
+        out += "".join(line(middle, end[i], end[(i + step) % around]) for i in range(around))
+    return out
 
 
 class Overlap(CliTest):
@@ -138,6 +156,32 @@ class Overlap(CliTest):
         self.assertEqual(plan["status"], "forced")
         self.assertFalse([p for p in plan["assembly"]["parts"] if "flexible" in p])
 
+    def test_a_tyre_of_rubber_needs_no_force(self):
+        self.write("model/library/parts/tyre.dat", "0 Tyre\n0 !LDRAW_ORG Part\n" + revolved(
+            [(-8, 10), (8, 10), (8, 20), (-8, 20)], closed=True))
+        self.write("model/library/parts/wheel.dat", "0 Wheel\n0 !LDRAW_ORG Part\n" + revolved(
+            [(-12, 13), (-8.1, 13), (-8.1, 9.9), (8.1, 9.9), (8.1, 13), (12, 13)], closed=False))
+        self.write("model/library/LDConfig.ldr", "0 !COLOUR Black CODE 0 VALUE #1B2A34 EDGE #808080\n"
+                   "0 !COLOUR Rubber_Black CODE 256 VALUE #1B2A34 EDGE #808080 RUBBER\n")
+        for colour in (0, 256):
+            self.write("model/car.ldr", "0 Car\n1 %d 0 0 0 1 0 0 0 1 0 0 0 1 tyre.dat\n"
+                       "1 0 0 0 0 1 0 0 0 1 0 0 0 1 wheel.dat\n" % colour)
+            check = self.run_program("check", "model/car.ldr", "--format", "json", "-q")
+            found = json.loads(check.stdout.splitlines()[-1])["findings"]
+            self.assertEqual([f["parts"] for f in found if f["kind"] == "flexible"], [["Tyre"]] if colour else [])
+        plan = self.plan("model/car.ldr", status=0)
+        self.assertEqual(plan["status"], "complete")
+        self.assertEqual([p.get("flexible") for p in plan["assembly"]["parts"]], ["material", None])
+        self.assertTrue(plan["assembly"]["overlaps"][0]["flexible"])
+        self.run_program("verify", "out/plan.json", "-q", status=0)
+        # Not believed of a file that does not say so.
+        self.write("model/car.ldr", self.read("model", "car.ldr").replace("1 256 ", "1 0 "))
+        refused = self.run_program("verify", "out/plan.json", status=3)
+        plan["assembly"]["sha256"] = re.search("SHA-256 is ([0-9a-f]{64})", refused.stderr).group(1)
+        self.write("out/plan.json", json.dumps(plan))
+        done = self.run_program("verify", "out/plan.json", status=1)
+        self.assertIn("for flexible, and neither the file nor their shape and contact say so", done.stderr + done.stdout)
+
     def test_that_a_rigid_part_is_flexible_is_not_believed(self):
         self.run_program("sample", "pressed_pin", "-o", "in", "-q", status=0)
         plan = self.plan("in", status=0)
@@ -145,7 +189,7 @@ class Overlap(CliTest):
         plan["assembly"]["overlaps"][0].update({"flexible": True, "declared": 1.0})
         self.write("out/plan.json", json.dumps(plan))
         done = self.run_program("verify", "out/plan.json", status=1)
-        self.assertIn("for flexible, and their shape and contact do not say so", done.stderr + done.stdout)
+        self.assertIn("for flexible, and neither the file nor their shape and contact say so", done.stderr + done.stdout)
 
     def test_what_the_user_allows_needs_no_force_and_is_named(self):
         self.run_program("sample", "o_ring", "-o", "in", "-q", status=0)

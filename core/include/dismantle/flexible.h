@@ -14,9 +14,10 @@ enum class Flexible {
   declared,  ///< the user says so
   coil,      ///< recognised by shape and contact: a coiled wire of one section, such as a spring
   loop,      ///< recognised by shape and contact: a closed round strand, such as an O-ring or a round belt
+  material,  ///< the file says that its material bends, such as rubber
 };
 
-inline constexpr std::array<std::string_view, 3> kFlexibleNames{"declared", "coil", "loop"};  ///< by Flexible
+inline constexpr std::array<std::string_view, 4> kFlexibleNames{"declared", "coil", "loop", "material"};  ///< by Flexible
 /// Name in files and messages.
 constexpr std::string_view to_string(Flexible flexible) {
   return kFlexibleNames.at(static_cast<std::size_t>(flexible));
@@ -33,7 +34,7 @@ struct FlexiblePart {
   std::string part;
   Flexible kind = Flexible::declared;
   double depth = 0;                   ///< how deep other parts may cut into it; assembly units
-  std::vector<std::string> others{};  ///< parts that may cut into a recognised part; into a declared one all may
+  std::vector<std::string> others{};  ///< parts that may cut into it; empty: it is declared by the user, all may
 };
 
 }  // namespace dismantle

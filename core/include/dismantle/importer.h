@@ -32,6 +32,7 @@ struct RawPart {
   std::vector<std::string> instances{};
   std::string product{};            ///< name of that product
   std::optional<double> density{};  ///< g/cm3, if the file states it
+  bool flexible{};                  ///< the file says that its material bends, such as rubber (docs/concepts.md)
 };
 
 /// Reads files of some formats into raw parts.

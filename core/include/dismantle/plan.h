@@ -177,7 +177,7 @@ struct PlanOverlap {
   double depth = 0;                     ///< assembly units
   std::optional<OverlapPlace> place{};  ///< input units; none: the file does not say
   std::optional<double> declared{};     ///< depth allowed for this pair, whatever its overlap; assembly units
-  bool flexible = false;                ///< the user did not set `declared`: one of the two is recognised as flexible
+  bool flexible = false;                ///< `declared` is not by the user: one of the two bends, by its file or shape
 };
 
 /// A part of the input that is not in the plan.

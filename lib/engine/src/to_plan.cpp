@@ -27,7 +27,7 @@ void state_flexible(const FlexiblePart& flexible, PlanAssembly& assembly) {
   };
   for (PlanOverlap& o : assembly.overlaps)
     if ((o.a == flexible.part && with(o.b)) || (o.b == flexible.part && with(o.a)))
-      o.flexible = o.declared == std::max(o.depth, flexible.depth);
+      o.flexible = o.flexible || o.declared == std::max(o.depth, flexible.depth);
 }
 
 std::vector<std::string> names_of(const std::vector<PartId>& parts, const Assembly& assembly) {

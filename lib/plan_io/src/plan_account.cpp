@@ -102,9 +102,9 @@ void tell_parts(const Plan& plan, PlanAccount& out) {
   out.assumed.push_back(flexible == 0
                             ? std::string("parts are rigid")
                             : fmt::format("parts are rigid, but for {}", text::counted(flexible, "flexible part")));
-  if (!a.overlaps.empty())
+  if (const std::size_t deep = count_of(a.overlaps, [](const PlanOverlap& o) { return o.depth > 0; }); deep > 0)
     out.assumed.push_back(fmt::format("{} that overlap when assembled may do so on the way, as deep as then",
-                                      text::counted(a.overlaps.size(), "pair")));
+                                      text::counted(deep, "pair")));
   if (const std::size_t open = count_of(a.parts, [](const PlanPart& p) { return p.open; }); open > 0)
     out.assumed.push_back(fmt::format("{} without a closed surface: a wall each", text::counted(open, "part")));
   if (const std::size_t kept = count_of(a.components, [](const PlanComponent& c) { return c.kept; }); kept > 0)

@@ -23,7 +23,8 @@ void check_same_files(const Plan& plan, const InputParts& input, const std::stri
                           input.sha256, plan.assembly.sha256));
 }
 
-/// Removes the parts that are not in the plan.
+/// Removes the parts that are not in the plan. Parts that it states as rigid stay rigid, whatever the file says of
+/// them.
 void keep_parts_of(const Plan& plan, std::vector<RawPart>& parts, const std::string& source) {
   std::set<std::string> planned, excluded, found;
   for (const auto& part : plan.assembly.parts) planned.insert(part.name);
@@ -36,6 +37,10 @@ void keep_parts_of(const Plan& plan, std::vector<RawPart>& parts, const std::str
   for (const auto& name : planned)
     if (!found.contains(name)) throw InputError(source, fmt::format("has no part '{}', which the plan is about", name));
   std::erase_if(parts, [&](const RawPart& part) { return !planned.contains(part.name); });
+  std::set<std::string> material;
+  for (const auto& part : plan.assembly.parts)
+    if (part.flexible == Flexible::material) material.insert(part.name);
+  for (auto& part : parts) part.flexible = part.flexible && material.contains(part.name);
 }
 
 std::shared_ptr<const Mesh> moved(const Mesh& mesh, const Normalization& from, const Normalization& to) {
@@ -72,7 +77,7 @@ void set_normalization(Assembly& assembly, const Normalization& to) {
 void recognise_flexible_of(const Plan& plan, Assembly& assembly, const RunContext& context) {
   std::vector<std::string> named;
   for (const PlanPart& part : plan.assembly.parts)
-    if (part.flexible && *part.flexible != Flexible::declared) named.push_back(part.name);
+    if (part.flexible == Flexible::coil || part.flexible == Flexible::loop) named.push_back(part.name);
   if (!named.empty()) recognise_flexible(assembly, context, &named);
 }
 
@@ -108,7 +113,7 @@ Assembly assembly_of_plan(const Plan& plan, InputParts input, const std::string&
   options.unit = plan.assembly.unit;
   options.drop_duplicates = false;  // the plan says which parts stay
   options.subdivide = 0;
-  options.flexible = FlexibleParts::declared;  // recognised below, only parts that the plan names
+  options.flexible = FlexibleParts::declared;  // shapes are recognised below, only of parts that the plan names
   options.max_triangles = std::numeric_limits<std::int64_t>::max();
   PrepareReport report;
   Assembly assembly = prepare_assembly(std::move(input.parts), source, input.sha256, options, context, report);

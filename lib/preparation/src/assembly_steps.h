@@ -28,6 +28,7 @@ struct Candidate {
   std::vector<std::string> parents, instances;
   std::string product;
   std::optional<double> density;
+  bool flexible = false;  ///< RawPart::flexible
   std::string unit;
 
   std::unique_ptr<TriangleBvh> bvh() const {

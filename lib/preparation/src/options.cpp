@@ -58,9 +58,11 @@ void PrepareOptions::describe(Schema<PrepareOptions>& s) {
          .doc = "Longest edge of the surface that contact points are taken from (step 9). 0 = unchanged."});
   s.add_choice<FlexibleParts>("flexible", &PrepareOptions::flexible,
                               {{"recognised", FlexibleParts::recognised,
-                                "parts whose shape is that of a spring, an O-ring or a round belt, and that overlap "
-                                "others when assembled, too"},
-                               {"declared", FlexibleParts::declared, "only those that constraints.flexible names"}},
+                                "also parts whose shape is that of a spring, an O-ring or a round belt, and that "
+                                "overlap others when assembled"},
+                               {"declared", FlexibleParts::declared,
+                                "those that constraints.flexible names, and those that the file says are of a material "
+                                "that bends"}},
                               "Which parts count as flexible: other parts that are in them when assembled may cut into "
                               "them as deep as they are "
                               "thick.");

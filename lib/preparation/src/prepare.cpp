@@ -13,6 +13,7 @@
 #include "dismantle/geometry/length_unit.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/mesh_subdivide.h"
+#include "dismantle/preparation/declared_overlaps.h"
 #include "dismantle/preparation/flexible_parts.h"
 #include "dismantle/preparation/read_input.h"
 #include "measure_overlaps.h"
@@ -45,7 +46,9 @@ class Preparation {
     normalize();
     subdivide_parts();
     measure_overlaps();
-    if (options_.flexible == FlexibleParts::recognised) report_.flexible = recognise_flexible(assembly_, context_);
+    declare_flexible_of_files();
+    if (options_.flexible == FlexibleParts::recognised)
+      for (FlexiblePart& found : recognise_flexible(assembly_, context_)) report_.flexible.push_back(std::move(found));
     for (const auto& part : report_.parts)
       if (!part.kept) assembly_.excluded.push_back({part.name, part.reason, part.by_choice || part.by_meaning});
     for (const auto& warning : report_.warnings) context_.log(LogLevel::warning, warning);
@@ -108,6 +111,7 @@ class Preparation {
       c.instances = std::move(raw[i].instances);
       c.product = std::move(raw[i].product);
       c.density = raw[i].density;
+      c.flexible = raw[i].flexible;
       c.unit = raw[i].unit;
       c.box = c.mesh.box();
       c.volume = report.volume;
@@ -273,6 +277,18 @@ class Preparation {
           "{} pair{} of parts overlap when assembled, by up to {:.4g} {} ('{}' and '{}')", assembly_.overlaps.size(),
           assembly_.overlaps.size() == 1 ? "" : "s", deepest->depth / assembly_.normalization.scale,
           assembly_.unit.empty() ? "input units" : assembly_.unit, parts[deepest->a].name, parts[deepest->b].name));
+  }
+
+  void declare_flexible_of_files() {
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      if (!parts_[i].flexible) continue;
+      const Part& part = assembly_.parts[i];
+      declare_flexible(assembly_, part.name);
+      FlexiblePart& bends = report_.flexible.emplace_back();
+      bends = {part.name, Flexible::material, flexible_depth(part), {}};
+      for (const Part& other : assembly_.parts)
+        if (other.id != part.id) bends.others.push_back(other.name);
+    }
   }
 
   const PrepareOptions& options_;

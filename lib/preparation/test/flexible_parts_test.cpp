@@ -235,6 +235,31 @@ TEST(FlexibleParts, LoopsThatAreHeldAlongTheirTurnsBend) {
   }
 }
 
+/// What the file says of a material holds for any shape, towards all others; recognition by shape may be off.
+TEST(FlexibleParts, TheFileSaysThatAMaterialBends) {
+  PrepareOptions options;
+  options.flexible = FlexibleParts::declared;
+  for (const bool bends : {false, true}) {
+    std::vector<RawPart> raws{raw("block", box({0, 0, 0}, {4, 4, 4})), raw("plate", box({0, 0, -1}, {4, 4, 0.1})),
+                              raw("lid", box({0, 0, 6}, {4, 4, 7}))};
+    raws[0].flexible = bends;
+    PrepareReport report;
+    const Assembly assembly = prepared(raws, report, options);
+    ASSERT_EQ(report.flexible.size(), bends ? 1u : 0u);
+    const double depth = flexible_depth(assembly.parts[0]);
+    EXPECT_NEAR(depth, assembly.normalization.scale * 4 * 64 / 96.0, 1e-9);
+    for (const PartId other : {1u, 2u}) {
+      const InitialOverlap* pair = assembly.overlap_of(0, other);
+      EXPECT_EQ(pair != nullptr ? pair->declared : std::nullopt, bends ? std::optional(depth) : std::nullopt);
+    }
+    EXPECT_EQ(assembly.overlap_of(1, 2), nullptr);
+    if (!bends) continue;
+    EXPECT_EQ(report.flexible[0].part, "block");
+    EXPECT_EQ(report.flexible[0].kind, Flexible::material);
+    EXPECT_EQ(report.flexible[0].others, (std::vector<std::string>{"plate", "lid"}));
+  }
+}
+
 TEST(FlexibleParts, WithoutAnOverlapNothingBends) {
   const Mesh seal = sweep(belt_line(5, 5, 0, 48), polygon(0.5, 16), true);
   const Assembly assembly = prepared({raw("seal", seal), raw("plate", box({-9, -9, -2}, {9, 9, -0.55}))});

@@ -151,13 +151,15 @@ class Parser {
   }
 
   void colour(Words& words) {
-    std::string code, value;
+    Colour c;
+    words.next();  // its name
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-      if (word == "CODE") code = words.next();
-      if (word == "VALUE") value = words.next();
+      if (word == "CODE") c.code = words.next();
+      if (word == "VALUE") c.value = words.next();
+      if (word == "RUBBER") c.rubber = true;
     }
     content_ = true;
-    if (!code.empty() && !value.empty()) current_.colours.emplace_back(std::move(code), std::move(value));
+    if (!c.code.empty() && !c.value.empty()) current_.colours.push_back(std::move(c));
   }
 
   void reference(Words& words) {

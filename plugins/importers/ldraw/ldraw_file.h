@@ -43,6 +43,13 @@ struct StepEnd {
   bool ends_turn = false;
 };
 
+/// A statement !COLOUR.
+struct Colour {
+  std::string code;
+  std::string value;    ///< "#RRGGBB"
+  bool rubber = false;  ///< its finish is RUBBER: parts in it bend
+};
+
 struct LdrawFile {
   std::string name;         ///< as it names itself
   std::string description;  ///< its first line, blanks reduced
@@ -50,7 +57,7 @@ struct LdrawFile {
   std::vector<Reference> references;
   std::vector<Polygon> polygons;
   std::vector<StepEnd> steps;
-  std::vector<std::pair<std::string, std::string>> colours;  ///< of !COLOUR: code, "#RRGGBB"
+  std::vector<Colour> colours;
 };
 
 /// The name by which files are found: lower case, '/' between folders.

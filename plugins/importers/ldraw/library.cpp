@@ -73,7 +73,7 @@ void Library::read_colours() {
   std::error_code ec;
   if (!fs::is_regular_file(file, ec)) return;
   for (const auto& [key, block] : parse(text_of(file), file).files)
-    for (const auto& [code, value] : block.colours) colours_.emplace(code, value);
+    for (const Colour& colour : block.colours) colours_.emplace(colour.code, colour);
 }
 
 std::optional<Found> Library::find(const std::string& key) {
@@ -108,10 +108,11 @@ std::string Library::why_missing(const std::string& key) const {
   return fmt::format("'{}' is neither in the file nor in the library {}", key, root_.string());
 }
 
-std::optional<std::string> Library::colour(const std::string& code) const {
-  if (code.size() == 9 && code.starts_with("0x2")) return "#" + code.substr(3);
-  if (const auto known = colours_.find(code); known != colours_.end()) return known->second;
-  return std::nullopt;
+const Colour* Library::colour(const std::string& code) {
+  if (code.size() == 9 && code.starts_with("0x2"))
+    return &colours_.try_emplace(code, Colour{code, "#" + code.substr(3)}).first->second;
+  const auto known = colours_.find(code);
+  return known == colours_.end() ? nullptr : &known->second;
 }
 
 }  // namespace dismantle::ldraw

@@ -32,8 +32,8 @@ class Library {
   std::optional<Found> find(const std::string& key);
   /// Why a file is not found, for people.
   std::string why_missing(const std::string& key) const;
-  /// "#RRGGBB" of a code, or nothing.
-  std::optional<std::string> colour(const std::string& code) const;
+  /// Colour of a code, or null: direct colours, and those of the library.
+  const Colour* colour(const std::string& code);
   /// Files in the folder of the model that were read.
   const std::vector<std::filesystem::path>& own_files() const { return own_files_; }
 
@@ -45,7 +45,7 @@ class Library {
   Document document_;
   std::map<std::string, std::pair<std::filesystem::path, Origin>> indexed_;  // of the library, by key
   std::map<std::string, std::pair<std::unique_ptr<Document>, Origin>> read_;
-  std::map<std::string, std::string> colours_;
+  std::map<std::string, Colour> colours_;  // by code
   std::vector<std::filesystem::path> own_files_;
 };
 

@@ -210,7 +210,10 @@ class Walk {
     part.instances = place.instances;
     part.instances.push_back(fmt::format("{}#{}", key, ++uses_[key]));
     part.product = name;
-    if (const auto hex = library_.colour(place.colour)) part.colour = rgba_of(*hex);
+    if (const Colour* colour = library_.colour(place.colour)) {
+      part.colour = rgba_of(colour->value);
+      part.flexible = colour->rubber;
+    }
     return part;
   }
 

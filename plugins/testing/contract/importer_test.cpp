@@ -200,6 +200,7 @@ TEST_P(ImporterContract, SameFileSameParts) {
     for (std::size_t i = 0; i < a.size(); ++i) {
       EXPECT_EQ(a[i].name, b[i].name);
       EXPECT_EQ(a[i].unit, b[i].unit);
+      EXPECT_EQ(a[i].flexible, b[i].flexible);
       EXPECT_EQ(a[i].mesh.vertices, b[i].mesh.vertices);
       EXPECT_EQ(a[i].mesh.triangles, b[i].mesh.triangles);
     }
@@ -308,7 +309,10 @@ TEST_P(ImporterContract, OwnFilesComeBack) {
     std::vector<RawPart> parts;
     for (const fs::path& file : write_prepared(assembly, report, folder_ / "prepared"))
       if (file.extension() == ".obj")
-        for (RawPart& part : importer_->read(file, {})) parts.push_back(std::move(part));
+        for (RawPart& part : importer_->read(file, {})) {
+          EXPECT_FALSE(part.flexible) << "the format cannot say so";
+          parts.push_back(std::move(part));
+        }
     expect_back(
         parts, [](const Eigen::Vector3d& v) { return v; }, 1, 1e-12);
   }

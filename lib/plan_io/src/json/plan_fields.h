@@ -189,7 +189,7 @@ void fields(auto& v, Is<PlanPart> auto& p) {
   v("name", p.name, required, name);
   v("file", p.file);
   v("color", p.colour, if_set, choice(rgba_from_hex, "a colour as in \"#rrggbb\""));
-  v("flexible", p.flexible, if_set, enumerator(Flexible::loop, "\"declared\", \"coil\" or \"loop\""));
+  v("flexible", p.flexible, if_set, enumerator(Flexible::material, "\"declared\", \"coil\", \"loop\" or \"material\""));
   v("parents", p.parents, if_set);
   v("product", p.product, if_set);
   v("open", p.open, if_set);

@@ -107,6 +107,10 @@ void add_flexible_findings(const PrepareReport& report, double scale, AssemblyCh
     if (f.kind == Flexible::declared) {
       finding.message = fmt::format("'{}' is declared as flexible: others may cut {:.3g} into it", f.part, depth);
       finding.advice = "nothing";
+    } else if (f.kind == Flexible::material) {
+      finding.message =
+          fmt::format("'{}' is of a material that bends, says its file: others may cut {:.3g} into it", f.part, depth);
+      finding.advice = "nothing, if it bends; else say in constraints.overlap how deep others may cut into it";
     } else {
       finding.message = fmt::format("'{}' is taken for flexible, since it is {}: '{}' may cut {:.3g} into it", f.part,
                                     f.kind == Flexible::coil ? "a wire that coils" : "a closed round strand",

@@ -69,6 +69,27 @@ TEST_F(Ldraw, PartsHaveTheirPlaceSizeAndColour) {
   EXPECT_NEAR(signed_volume(parts[1].mesh), 2 * 8 * 4 * 9.6, 1e-9);
 }
 
+/// Parts in colours whose finish is RUBBER bend; the word may be part of a colour's name.
+TEST_F(Ldraw, PartsInColoursOfRubberAreFlexible) {
+  write("library/LDConfig.ldr",
+        "0 !COLOUR Red CODE 4 VALUE #C91A09 EDGE #333333\n"
+        "0 !COLOUR Gummi CODE 900 VALUE #212121 EDGE #595959 RUBBER\n"
+        "0 !COLOUR Gummi_Clear CODE 901 VALUE #FCFCFC EDGE #C9C9C9 ALPHA 128 RUBBER\n"
+        "0 !COLOUR RUBBER CODE 902 VALUE #212121 EDGE #595959 CHROME\n");
+  const auto line = [](const std::string& colour, int x, const std::string& file) {
+    return "1 " + colour + " " + std::to_string(x) + " 0 0 1 0 0 0 1 0 0 0 1 " + file + "\n";
+  };
+  const auto parts = read("0 FILE tower.ldr\n0 Tower\n" + line("4", 0, "brick.dat") + line("900", 100, "two.dat") +
+                          line("901", 200, "brick.dat") + line("902", 300, "brick.dat") +
+                          line("0x2212121", 400, "brick.dat") + line("900", 500, "wheel.ldr") +
+                          "0 FILE wheel.ldr\n0 Wheel\n" + line("16", 0, "brick.dat") + line("4", 50, "two.dat"));
+  ASSERT_EQ(parts.size(), 7u);
+  std::vector<bool> flexible;
+  for (const RawPart& part : parts) flexible.push_back(part.flexible);
+  EXPECT_EQ(flexible, (std::vector<bool>{false, true, true, false, false, true, false}));
+  EXPECT_EQ(parts[1].colour, (Rgba{0x21, 0x21, 0x21, 255}));
+}
+
 /// The library keeps old numbers as files that only refer to the new one: the part has the name of that.
 TEST_F(Ldraw, PartsThatHaveMovedHaveTheirName) {
   const std::string at = "1 16 0 0 0 1 0 0 0 1 0 0 0 1 ";

@@ -24,7 +24,7 @@ enum class FindingKind {
   overlap,    ///< two parts penetrate each other when assembled
   enclosed,   ///< a part lies inside the solid material of another
   isolated,   ///< it touches no other part
-  flexible,   ///< a part counts as flexible, declared or by its shape
+  flexible,   ///< a part counts as flexible, declared by the user or the file, or by its shape
   fastener,   ///< a screw does not hold as it stands: no nut, another thread, too short, on the ground of its hole
   input,      ///< about the files, or the assembly as a whole: what `dismantle plan` says, too
 };

@@ -27,7 +27,8 @@ DISMANTLE_API std::optional<Flexible> flexible_shape(const Mesh& mesh);
 DISMANTLE_API std::vector<FlexiblePart> recognise_flexible(Assembly& assembly, const RunContext& context,
                                                            const std::vector<std::string>* only = nullptr);
 
-/// The recognised parts that are not declared, followed by the declared parts that are in the assembly.
+/// The recognised parts, and those that the file declares, that the user does not declare, followed by the parts that
+/// the user declares and that are in the assembly.
 DISMANTLE_API std::vector<FlexiblePart> with_declared(std::vector<FlexiblePart> recognised,
                                                       const std::vector<std::string>& declared,
                                                       const Assembly& assembly);

@@ -15,8 +15,8 @@ namespace dismantle {
 
 /// Which parts may count as flexible.
 enum class FlexibleParts {
-  recognised,  ///< those that the user declares, and those recognised by shape and contact
-  declared,    ///< those that the user declares
+  recognised,  ///< those that the user or the file declares, and those recognised by shape and contact
+  declared,    ///< those that the user or the file declares
 };
 
 /// What becomes of parts whose surface is not closed after repair.
@@ -66,7 +66,7 @@ struct PrepareReport {
   std::vector<std::string> warnings;   ///< all, also those that `parts` and the assembly's overlaps tell
   std::vector<std::string> whole;      ///< those of `warnings` about the assembly as a whole
   std::vector<std::string> notes;      ///< about the input: nothing is wrong
-  std::vector<FlexiblePart> flexible;  ///< parts that are recognised as flexible
+  std::vector<FlexiblePart> flexible;  ///< parts that the file declares or that are recognised
 };
 
 /// Deterministic on any number of threads. `source` and `sha256` are copied into the assembly (see read_input.h).
