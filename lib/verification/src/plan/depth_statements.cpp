@@ -90,7 +90,8 @@ std::optional<std::string> DepthStatements::wrong_flexible(const PlanAssembly& s
     const InitialOverlap* found = a && b ? assembly_.overlap_of(*a, *b) : nullptr;
     if (found == nullptr || !found->declared || !o.declared ||
         !agrees(*o.declared, *found->declared, kOfTolerance * verifier_.options().max_penetration))
-      return fmt::format("it takes '{}' or '{}' for flexible, and neither the file nor their shape and contact say so", o.a, o.b);
+      return fmt::format("it takes '{}' or '{}' for flexible, and neither the file nor their shape and contact say so",
+                         o.a, o.b);
   }
   for (const PlanPart& part : said.parts) {
     const auto of_part = [&](const PlanOverlap& o) { return o.flexible && (o.a == part.name || o.b == part.name); };

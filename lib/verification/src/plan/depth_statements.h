@@ -27,8 +27,8 @@ class DepthStatements {
   /// past which the motion has been verified, which bounds the depth of their pairs.
   std::optional<std::string> wrong(const PlanStepOverlap& said, const StepMotion& motion,
                                    const std::vector<PartId>& held);
-  /// The same for the parts that the plan takes for flexible by their file or shape, compared with the measurement made for the
-  /// assembly.
+  /// The same for the parts that the plan takes for flexible by their file or shape, compared with the measurement made
+  /// for the assembly.
   std::optional<std::string> wrong_flexible(const PlanAssembly& said) const;
 
  private:
