@@ -5,8 +5,8 @@
 
 Runs the suites configs/bench/results_*.yaml with `dismantle bench`, which resumes an earlier run (delete the work folder to start
 again), and writes the output of `dismantle report`: README.md with the tables, and for each suite a plot of success over time and
-a CSV file of all trials. DIR contains the third-party assemblies; without it only the samples are compared. --only runs these suites
-only, --no-run none; of suites that are not complete the page says how many trials were run.
+a CSV file of all trials. DIR contains the third-party assemblies; without it only the samples are compared. --only is for these
+suites alone, --no-run runs none; of suites that are not complete the page says how many trials were run.
 """
 import argparse
 import os
@@ -106,12 +106,14 @@ def head(every, arguments):
     if starved:
         note += (f" **{starved} trial{'s were' if starved > 1 else ' was'} ended by the limit of wall-clock time**, before the limit of CPU time: "
                  "the machine was busy with other work, and what such a planner solves within its CPU time is not known.")
+    docs = os.path.relpath(os.path.join(ROOT, "docs"), arguments.out)
+    only = "".join(f" --only {name}" for name in arguments.only or ())
     return f"""# Results
 
 All planners on the same assemblies, made by one command, which resumes a run that was interrupted:
 
 ```
-tools/make_results.py --data DIR
+tools/make_results.py --data DIR{only}
 ```
 
 {how_it_was_run(every)}
@@ -127,7 +129,7 @@ thousands, and are there for their form and for the order of the methods, not fo
 Times are CPU seconds, from reading the input to the plan. **Precision** is the deepest penetration that the verifier certifies along a whole
 plan, beyond the overlap of the parts when assembled, of an assembly scaled to size 10; the tolerance is in the table above.
 
-[benchmark.md](../benchmark.md) says how suites, limits and reports work; [planners](../planners/README.md) what the path planners do.
+[benchmark.md]({docs}/benchmark.md) says how suites, limits and reports work; [planners]({docs}/planners/README.md) what the path planners do.
 """
 
 
@@ -141,20 +143,23 @@ def main():
     parser.add_argument("--out", default=os.path.join(ROOT, "docs/results"))
     parser.add_argument("--note", default="", help="what a reader has to know of this run, such as other jobs on the machine")
     parser.add_argument("--jobs", type=int, default=1, help="trials at the same time; more than one disturb each other's times")
-    parser.add_argument("--only", action="append", choices=names, help="run this suite only; may be repeated")
+    parser.add_argument("--only", action="append", choices=names, help="this suite only; may be repeated. The page has no other")
     parser.add_argument("--no-run", action="store_true", help="run nothing: the page of what the databases hold")
     arguments = parser.parse_args()
     if arguments.data:
         os.environ["DISMANTLE_DATA"] = os.path.abspath(arguments.data)
     os.makedirs(arguments.out, exist_ok=True)
 
-    every = [SuiteResults(name, arguments, run=not arguments.no_run and name in (arguments.only or names)) for name in names]
+    every = [SuiteResults(name, arguments, run=not arguments.no_run) for name in names if name in (arguments.only or names)]
     text = ""
-    for results, (_, title, words, tables) in zip(every, SECTIONS):
-        text += section(results, title, words, tables, arguments)
-        write_files(results, arguments, ("svg", "csv"))
-    published = every[len(SECTIONS):]
-    text += fidelity.section(published)
+    for name, title, words, tables in SECTIONS:
+        for results in every:
+            if results.name == name:
+                text += section(results, title, words, tables, arguments)
+                write_files(results, arguments, ("svg", "csv"))
+    published = [results for results in every if results.name in fidelity.SUITES]
+    if published:
+        text += fidelity.section(published, os.path.relpath(os.path.join(ROOT, "configs/paper.yaml"), arguments.out))
     for results in published:
         write_files(results, arguments, ("csv",))
     with open(os.path.join(arguments.out, "README.md"), "w", encoding="utf-8") as file:

@@ -117,8 +117,8 @@ def balance(pairs):
                    "every path here is certified along its whole length.\n")
 
 
-def section(all_results):
-    """`all_results`: the results of SUITES."""
+def section(all_results, settings):
+    """`all_results`: the results of SUITES. `settings`: link to the paper's settings."""
     rows, pairs = [], []
     for row in published():
         mine, default = (trial_of(all_results, row["assembly"], of) for of in (["paper"], DEFAULTS))
@@ -132,7 +132,7 @@ def section(all_results):
     text = f"""
 ## The published code
 
-The paper's algorithms with the paper's settings ([paper.yaml](../../configs/paper.yaml)) beside what the published code
+The paper's algorithms with the paper's settings ([paper.yaml]({settings})) beside what the published code
 ([Assemble-Them-All](https://github.com/yunshengtian/Assemble-Them-All) at {COMMIT}, unmodified, its defaults, seed 1) did on the same
 assemblies, on one core of a machine of this kind. Its plan times leave out the distance fields, "build"; our CPU times contain reading,
 preparation and proofs. "Actions" are forces and torques that it applied; 12 of them to choose from where parts turn. Its depth is that of the
