@@ -19,7 +19,6 @@ constexpr std::size_t kRays = 48;      // from vertices of each part
 constexpr double kResolution = 8;      // of depths that are compared, in tolerances
 constexpr double kShare = 0.1;         // the same as a share of the depth; the larger of the two applies
 constexpr std::uint64_t kPoses = 200;  // measured for each pair
-constexpr double kFineShare = 0.05;    // half of what a stated depth may be off (docs/plan-format.md)
 
 double support(const Aabb& box, const Vector3d& d) { return box.center().dot(d) + 0.5 * box.size().dot(d.cwiseAbs()); }
 
@@ -129,7 +128,7 @@ std::optional<MotionDepth> StraightCuts::exactly(const std::vector<PartId>& movi
       const std::optional<MotionDepth> known = pair(p, q, out).cut;
       if (!known || known->excess() + unsure < rough->excess()) continue;
       const std::optional<MotionDepth> fine =
-          measure(p, q, out, {tolerance, kFineShare, std::numeric_limits<double>::infinity(), 2 * kPoses}, context);
+          measure(p, q, out, {.absolute = tolerance, .most_poses = 2 * kPoses}, context);
       if (context.should_stop()) return rough;
       keep_deeper(worst, fine);
       proved = proved && (!fine || fine->proved);

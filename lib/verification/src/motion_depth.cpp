@@ -97,7 +97,7 @@ struct MotionDepthMeter::Impl {
       const double error = kMeasured * resolution(options, worst);
       return Sample{u, measured_to(u, {.tolerance = error, .from = from}) + error};
     };
-    // How fine to measure follows from the depth, which nobody knows at first: begin with the deepest there can be.
+    // How fine to measure follows from the depth. It is not known at first: begin with the deepest there can be.
     const auto measure_first = [&](double u) {
       const double most = 0.5 * std::min(size_of(part).minCoeff(), size_of(other.part).minCoeff());
       double depth = 0, error = kMeasured * options.relative * most;
@@ -108,7 +108,7 @@ struct MotionDepthMeter::Impl {
             depth >= enough(options, allowed))
           break;
       }
-      if (!worst) raise(worst, {part, other.part, depth, allowed, motion.at(u).t, false});
+      if (!worst) raise(worst, {part, other.part, depth, allowed, Eigen::Vector3d::Zero(), false});
       return Sample{u, depth + error};
     };
     // Exact depths are needed of what may be the worst only: most places are found in one coarse pass to be less deep

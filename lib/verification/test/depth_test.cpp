@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include <algorithm>
 #include <numbers>
 #include <stdexcept>
@@ -124,6 +126,26 @@ TEST(PenetrationDepth, ToldToStopItIsALowerBoundOfLittleWork) {
     less += found < whole - kTolerance ? 1 : 0;
   }
   EXPECT_GT(less, 5);
+}
+
+/// What is known already is not searched for again, and a depth that is enough ends the search.
+TEST(PenetrationDepth, SearchesBetweenWhatIsKnownAndWhatIsEnough) {
+  Rng rng(17);
+  const RunContext context;
+  for (int i = 0; i < 10; ++i) {
+    const DepthBody a(shapes::sphere({0, 0, 0}, 1, 3)), b(shapes::sphere(rng.uniform(0.3, 1) * Vec3::UnitX(), 1, 3));
+    const Pose world = random_pose(rng, 3);
+    const double whole = penetration_depth(a, world, b, world, kTolerance);
+    const auto found = [&](double from, double enough) {
+      return deepest_penetration(a, world, b, world, {.tolerance = kTolerance, .from = from, .enough = enough}, context)
+          .depth;
+    };
+    const double endless = std::numeric_limits<double>::infinity(), less = rng.uniform(0.1, 0.9) * whole;
+    EXPECT_NEAR(found(less, endless), whole, 2 * kTolerance);
+    EXPECT_EQ(found(whole + 2 * kTolerance, endless), whole + 2 * kTolerance);
+    EXPECT_GE(found(0, less), less);
+    EXPECT_LE(found(0, less), whole + kTolerance);
+  }
 }
 
 TEST(PenetrationDepth, ToleranceMustBePositive) {

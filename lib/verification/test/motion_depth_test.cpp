@@ -122,6 +122,23 @@ TEST(MotionDepth, OutsideTheOverlapWhenAssembledAllIsExcess) {
   }
 }
 
+/// A block slides along a floor that it lies in, over a ridge that it cuts deeper into, anywhere on the way.
+TEST(MotionDepth, ARidgeInAUniformOverlapIsFound) {
+  Rng rng(19);
+  for (int i = 0; i < testing_support::trials(10, 100); ++i) {
+    const double sunk = rng.uniform(0.05, 0.2), ridge = sunk * rng.uniform(0.1, 1.5), at = rng.uniform(3, 8);
+    const Pose world = shapes::random_pose(rng, 2);
+    const Mesh floor = shapes::joined(shapes::box({-5, -2, -2}, {15, 2, 0}),
+                                      shapes::box({at, -0.5, -1}, {at + rng.uniform(0.02, 0.1), 0.5, ridge}));
+    const Assembly assembly = shapes::assembly_of(
+        {shapes::moved(shapes::box({-1, -1, -sunk}, {1, 1, 2}), world), shapes::moved(floor, world)});
+    const MotionDepth found = deepest(assembly, {{1, Pose{}}}, {{Pose{}}, {shift(world.q * Vec3(10, 0, 0))}},
+                                      {.absolute = 2e-3, .relative = 0.05});
+    EXPECT_TRUE(found.proved) << "trial " << i;
+    EXPECT_NEAR(found.depth, sunk + ridge, std::max(2e-3, 0.05 * (sunk + ridge))) << "trial " << i;
+  }
+}
+
 TEST(MotionDepth, StopsWhenToldTo) {
   const Assembly assembly = shapes::assembly_of({shapes::box({0, 0, 0}, {1, 1, 1}), shapes::box({2, 0, 0}, {3, 1, 1})});
   const Verifier verifier(assembly, VerifyOptions{});

@@ -9,7 +9,6 @@ namespace dismantle::least_cut {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kFineShare = 0.05;  // half of what a stated depth may be off (docs/plan-format.md)
 constexpr double kClearlyLess = 0.95;
 constexpr double kEqualSums = 1.1;   // of sums up to this factor the number of steps decides
 
@@ -168,8 +167,9 @@ std::vector<Choice> Comparison::of_best_outlook(const std::vector<Choice>& list,
 }
 
 Choice Comparison::measured(Choice choice, double stop_above, const RunContext& context) {
-  const MotionDepthOptions options{tolerance_, kFineShare, stop_above,
-                                   2 * static_cast<std::uint64_t>(params_.depth_poses)};
+  const MotionDepthOptions options{.absolute = tolerance_,
+                                   .stop_above = stop_above,
+                                   .most_poses = 2 * static_cast<std::uint64_t>(params_.depth_poses)};
   choice.depth = motions_.depth(choice.motion, options, context);
   choice.measured = !context.should_stop() && (!choice.depth || choice.depth->proved);
   return choice;
