@@ -66,6 +66,40 @@ TEST(Thickness, AToothThatEndsOnItsHeadIsNoWallWithoutThickness) {
   }
 }
 
+/// A box of height 1 on z = 0. Between its lower outline and the middle of its underside, the face is folded: the strip
+/// joins corners of the outline and of the middle that do not lie opposite each other, `shift` corners apart.
+Mesh with_folded_underside(std::uint32_t shift) {
+  Mesh m;
+  for (const double half : {2.0, 1.0})
+    for (std::uint32_t k = 0; k < 4; ++k)
+      m.vertices.emplace_back(k == 0 || k == 3 ? half : -half, k < 2 ? half : -half, 0);
+  for (std::uint32_t k = 0; k < 4; ++k) m.vertices.emplace_back(m.vertices[k] + Vec3(0, 0, 1));
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    const std::uint32_t n = (k + 1) % 4, a = 4 + (k + shift) % 4, b = 4 + (n + shift) % 4;
+    m.triangles.push_back({n, k, a});
+    m.triangles.push_back({n, a, b});
+    m.triangles.push_back({k, n, 8 + n});
+    m.triangles.push_back({k, 8 + n, 8 + k});
+  }
+  for (const std::uint32_t first : {1U, 2U}) {
+    m.triangles.push_back({4, 4 + first + 1, 4 + first});
+    m.triangles.push_back({8, 8 + first, 8 + first + 1});
+  }
+  return m;
+}
+
+TEST(Thickness, AFaceFoldedWithinItsPlaneIsNoWallWithoutThickness) {
+  Rng rng(3);
+  for (int trial = 0; trial < testing_support::trials(4, 40); ++trial) {
+    const Pose pose = shapes::random_pose(rng, 5);
+    for (const std::uint32_t shift : {0U, 1U, 2U, 3U})
+      for (Solid& s : split_into_solids(shapes::moved(with_folded_underside(shift), pose))) {
+        s.measure_thickness(0.5);
+        for (const double t : s.thickness) EXPECT_GT(t, 0.5) << "trial " << trial << ", shift " << shift;
+      }
+  }
+}
+
 TEST(Thickness, AThinWallIsMeasuredToItsOtherSide) {
   Rng rng(2);
   for (int trial = 0; trial < testing_support::trials(4, 40); ++trial) {

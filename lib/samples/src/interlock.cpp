@@ -1,4 +1,5 @@
 /// Three parts of which two must move simultaneously, along different paths (figure 9).
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -59,9 +60,15 @@ Model interlock3(const InterlockParameters& p) {
   const double lip = flange_height + c + 0.4 * s;  // top of the lip; its underside is c above the flange
   const double start = lip + c, block_top = start + block_height, bar_top = block_top + travel;
 
+  // From the first corner of the square on, so that the face between circle and square does not fold.
+  const auto round = [](double radius, double z) {
+    Loop loop = circle(radius, z, 4 * TwistMesh{}.pieces);
+    std::rotate(loop.begin(), loop.begin() + TwistMesh{}.pieces / 2, loop.end());
+    return loop;
+  };
   Loft spindle;
-  spindle.to(circle(flange, 0, 48)).to(circle(flange, flange_height, 48));
-  spindle.to(circle(neck, flange_height, 48)).to(circle(neck, start, 48));
+  spindle.to(round(flange, 0)).to(round(flange, flange_height));
+  spindle.to(round(neck, flange_height)).to(round(neck, start));
   twist(spindle, half, rate, start, start, bar_top);
   add_part(model, "spindle", spindle.capped());
 

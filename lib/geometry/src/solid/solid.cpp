@@ -189,14 +189,19 @@ bool share_corner(const Triangle& a, const Triangle& b) {
 }
 
 /// Distance to the opposite side, where the solid ends. Where a surface touches itself with nothing but solid on both
-/// sides (a thread tooth that ends on the underside of its head), the solid goes on. Infinite: not within reach.
+/// sides (a thread tooth that ends on the underside of its head), the solid goes on. A face that is folded within its
+/// plane has triangles that face into the solid: their rays say nothing, those of the layers that face outward do.
+/// Infinite: not within reach.
 template <class Blocks>
 double wall_behind(const TriangleBvh& bvh, const Vec3& from, const Vec3& into, double reach, const Blocks& blocks) {
   const double beyond = 1e-3 * reach;  // of a gap that counts as none: 0.4 % of the tolerance
   for (double at = 0; at < reach;) {
     at += first_hit(bvh, from + at * into, into, reach - at, blocks);
     if (!(at < reach)) break;
-    if (!bvh.inside(from + (at + beyond) * into)) return at;
+    if (!bvh.inside(from + (at + beyond) * into)) {
+      if (at < beyond && bvh.inside(from - beyond * into)) break;
+      return at;
+    }
     at += beyond;
   }
   return std::numeric_limits<double>::infinity();
