@@ -109,8 +109,7 @@ class Plan(CliTest):
 
     def test_an_interlock_is_solved_by_two_motions_at_once(self):
         self.make("interlock3")
-        # Found at 0.001 with contacts ten times as stiff only: under the load of two parts they yield by about as much.
-        done = self.run_program("plan", "interlock3", *QUICK, "--set", "verify.max_penetration=0.002", "-o", "out", status=0)
+        done = self.run_program("plan", "interlock3", *QUICK, "-o", "out", status=0)
         self.assertIn("step 1: block out, spindle moved part-way, 2 left", done.stderr)
         plan = json.loads(self.read("out", "plan.json"))
         self.assertEqual((plan["status"], plan["assembly_status"], plan["remaining"]), ("complete", "complete", ["frame"]))

@@ -55,6 +55,7 @@ struct Table {
   Verifier verifier;
   std::atomic<std::size_t> checked = 0;  ///< number of paths
   std::shared_ptr<Executor> executor;    ///< its idle threads may help
+  std::vector<PartId> any_of{};          ///< if not empty: parts move independently until one of these is out
 
   explicit Table(Assembly a, double tolerance = 0.01)
       : assembly(std::move(a)), verifier(assembly, {.max_penetration = tolerance}) {
@@ -83,15 +84,31 @@ struct Table {
     context.executor = executor;
     const fake::RuleChecker checker([&](const Path& path) {
       ++checked;
-      fake::Ruling ruling = fake::ruling_of(verifier.check_motion(moving, scene.fixed, path));
+      const MotionCheck motion = verifier.check_motion(moving, scene.fixed, path);
+      fake::Ruling ruling = fake::ruling_of(motion);
+      if (motion.violation)
+        for (std::size_t i = 0; i < moving.size(); ++i)
+          ruling.poses.push_back(screw_interpolate(path[motion.violation->segment][i],
+                                                   path[motion.violation->segment + 1][i], motion.violation->u));
       std::vector<PlacedPart> group = scene.moving;
       for (std::size_t i = 0; i < group.size(); ++i) group[i].pose = path.back()[i];
-      ruling.accept = ruling.accept && verifier.apart(group, scene.fixed);
+      ruling.accept = ruling.accept && is_out(group, scene.fixed);
       return ruling;
     });
-    const PathQuery query{assembly, *simulator, *prepared,  scene, budget, verifier.options().max_penetration,
-                          checker,  {},         resume_from};
+    PathQuery query{assembly, *simulator, *prepared,  scene, budget, verifier.options().max_penetration,
+                    checker,  {},         resume_from};
+    query.goal.any_of = any_of;
     return plan_path(*registry().create<PathPlanner>(planner, given), query, context);
+  }
+
+ private:
+  bool is_out(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& fixed) const {
+    if (any_of.empty()) return verifier.apart(group, fixed);
+    return std::any_of(any_of.begin(), any_of.end(), [&](PartId id) {
+      std::vector<PlacedPart> alone, others = fixed;
+      for (const PlacedPart& p : group) (p.part == id ? alone : others).push_back(p);
+      return verifier.apart(alone, others);
+    });
   }
 };
 

@@ -40,10 +40,29 @@ double Problem::displacement(const State& state) const {
   return independent() ? lengths[lengths.size() - 2] : lengths.back();
 }
 
+bool Problem::several_moved(const State& from, const State& to) const {
+  if (!independent()) return false;
+  const double far = tactics.end_similarity * tactics.similarity_translation;
+  const auto moved = [&](std::size_t i, const Pose& before, const Pose& after) {
+    return screw_travel(before, after, bodies[i].center, bodies[i].radius) > far;
+  };
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Pose &before = from.bodies[i].pose, &after = to.bodies[i].pose;
+    if (!moved(i, before, after)) continue;
+    for (std::size_t k = 0; k < i; ++k) {
+      const Pose &was = from.bodies[k].pose, &is = to.bodies[k].pose;
+      if (moved(k, was, is) && moved(i, was.inverse() * before, is.inverse() * after)) return true;
+    }
+  }
+  return false;
+}
+
 void Problem::give_room(State& state) const {
   const double wanted = tactics.clearance * query.tolerance;
   world->project_to_clearance(state, wanted > 0 ? wanted : std::numeric_limits<double>::infinity());
 }
+
+void Problem::part_contacts(State& state) const { world->project_to_clearance(state, query.tolerance); }
 
 std::vector<Contact> Problem::contacts(const State& state) const {
   std::vector<Contact> contacts;

@@ -20,13 +20,17 @@ class Recurrence {
   Recurrence(const StateTree& tree, const State& start, bool leans)
       : tree_(tree), start_(start), leans_(leans), first_(tree.size()), left_behind_(first_) {}
 
-  /// The state after a planning time step, in which the part has rotated by `angle`.
-  bool at_known(const State& state, double angle) {
-    const path::StateSet& known = leans_ ? tree_.fine() : tree_.seen();
+  /// The state after a planning time step, in which the first part has rotated by `angle`. `coupled`: several parts
+  /// that move independently have moved. Such a motion may be the only way out, and it begins among states to which
+  /// single parts have moved in their play: it goes on past those, for two rotations at most, until a state of another
+  /// run is nearly equal.
+  bool at_known(const State& state, double angle, bool coupled) {
+    const path::StateSet& known = leans_ || coupled ? tree_.fine() : tree_.seen();
     rotated_ += angle;
     left_start_ = left_start_ || !known.similar(state, start_);
-    if (leans_)
-      return rotated_ > 2 * std::numbers::pi || (left_start_ && known.has_similar(state, first_, tree_.size()));
+    if (leans_ || coupled)
+      return rotated_ > (coupled ? 4 : 2) * std::numbers::pi ||
+             (left_start_ && known.has_similar(state, first_, tree_.size()));
     while (left_behind_ < tree_.size() && !known.similar(state, tree_[static_cast<std::int32_t>(left_behind_)].state))
       ++left_behind_;
     return left_start_ && known.has_similar(state, left_behind_, tree_.size());
@@ -54,15 +58,16 @@ RunEnd Search::follow(std::int32_t from, const Action& action, Stage stage, unsi
   while (true) {
     if (work_.used_up()) return RunEnd::stop;
     const std::size_t before = motion.size();
-    const Eigen::Quaterniond was = state.bodies[0].pose.q;
+    const State was = state;
     const StepReport report = problem_->world->advance(state, action, problem_->tactics.time_step, &motion);
     work_.count_steps(report.steps);
     if (!report.finite) return RunEnd::blocked;
     if (motion.size() > before && problem_->out(state))
       return verify(tree_.add(last, depth, state, std::move(motion), false), from, result);
-    const bool known = rotates && recurrence.at_known(state, angle_between(was, state.bodies[0].pose.q));
-    if (report.stalled || known) break;
-    if (leans && tree_.seen().has_similar(state)) continue;
+    const bool coupled = rotates && problem_->several_moved(was, state);
+    const double angle = angle_between(was.bodies[0].pose.q, state.bodies[0].pose.q);
+    if (report.stalled || (rotates && recurrence.at_known(state, angle, coupled))) break;
+    if ((leans || coupled) && tree_.seen().has_similar(state)) continue;
     const bool keeps_middles = problem_->tactics.intermediate > 0;
     if (rotates) {
       last = tree_.add(last, depth, state, std::exchange(motion, {}), keeps_middles);

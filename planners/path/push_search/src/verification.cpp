@@ -22,18 +22,32 @@ bool same_path(const Path& a, const Path& b) {
 
 }  // namespace
 
-/// The same path, thinned, with clearance between the parts wherever possible: parts that drive each other stay in
-/// contact along the whole path, which is hard to verify. The first and the last instant do not change.
-Path Verification::with_room(const Path& rubbing, const Work& work) const {
+/// Moves the parts at each instant but the first and the last off each other, wherever there is room.
+Path Verification::with_room(Path path, const Work& work) const {
   const std::vector<path::Ball>& bodies = problem_.bodies;
-  Path path = path::thin(rubbing, bodies, problem_.touch_distance());
   for (std::size_t k = 1; k + 1 < path.size() && !work.used_up(); ++k) {
     State state = problem_.world->initial_state();
     for (std::size_t i = 0; i < bodies.size(); ++i) state.bodies[i].pose = path[k][i];
-    problem_.give_room(state);
+    problem_.part_contacts(state);
     for (std::size_t i = 0; i < bodies.size(); ++i) path[k][i] = state.bodies[i].pose;
   }
   return path;
+}
+
+/// Forms of a path on which parts drive each other, and so stay in contact all the way. The first is the path itself.
+/// Each refusal tells the world of a contact that it did not see, and the next form keeps off that, too, also at the
+/// instant of the refusal. Ends when a form is refused again as it was, or after `max_refusals` forms.
+std::optional<Path> Verification::form_of(const Path& whole, std::size_t k, const Work& work, Refused& last) const {
+  if (k == 0) return path::thin(whole, problem_.bodies, problem_.thinning());
+  if (!problem_.independent() || k > static_cast<std::size_t>(problem_.tactics.max_refusals)) return std::nullopt;
+  if (k == 1) return with_room(path::thin(whole, problem_.bodies, problem_.touch_distance()), work);
+  const auto after = static_cast<std::ptrdiff_t>(last.check.instant) + 1;
+  Path next = last.path;
+  if (last.check.poses.size() == problem_.bodies.size() && last.check.instant + 1 < next.size())
+    next.insert(next.begin() + after, last.check.poses);
+  next = path::thin(with_room(std::move(next), work), problem_.bodies, geometry::kRounding);
+  if (same_path(next, last.path)) return std::nullopt;
+  return next;
 }
 
 RunEnd Verification::show(const Path& whole, unsigned depth, const Work& work, PathResult& result) {
@@ -41,24 +55,23 @@ RunEnd Verification::show(const Path& whole, unsigned depth, const Work& work, P
   for (const Path& refused : refusals_)
     if (same_path(refused, path)) return RunEnd::blocked;  // the world could not learn from the earlier refusal
   std::uint64_t refused_forms = 0;
-  PathCheck first;
-  const auto form = [&](std::size_t k) -> std::optional<Path> {
-    if (k == 0) return path;
-    return k == 1 && problem_.independent() ? std::optional(with_room(path, work)) : std::nullopt;
-  };
-  const auto learn_first = [&](const PathCheck& check, const Path&) {
-    if (refused_forms == 1) first = check;  // the second form is not the path of these states any more
-    return true;
+  std::string reason;
+  bool learned = false;
+  Refused last;
+  const auto form = [&](std::size_t k) { return form_of(whole, k, work, last); };
+  const auto learn_from = [&](const PathCheck& check, const Path& refused) {
+    if (refused_forms == 1) reason = check.reason;
+    if (!check.has_witness) return refused_forms == 1;
+    learn({check.part, check.other, check.point});
+    last = {refused, check};
+    return learned = true;
   };
   const auto accept = [&](VerifiedPath verified) { result.solve(std::move(verified), depth); };
-  if (path::show_forms(problem_.query.checker, refused_forms, form, learn_first, accept).accepted)
-    return RunEnd::solved;
+  if (path::show_forms(problem_.query.checker, refused_forms, form, learn_from, accept).accepted) return RunEnd::solved;
   ++refused_;
   refusals_.push_back(std::move(path));
-  result.message = first.reason;
-  if (!first.has_witness) return RunEnd::refused;
-  learn({first.part, first.other, first.point});
-  return RunEnd::refused_learned;
+  result.message = reason;
+  return learned ? RunEnd::refused_learned : RunEnd::refused;
 }
 
 void Verification::learn(const path::ContactSample& sample) {

@@ -104,12 +104,15 @@ std::optional<Attempt> SimultaneousMotion::attempt_for(const GroupState& group, 
 }
 
 /// As for single parts, a search is repeated when a part that it touched has left; deeper only if several parts moved.
-/// Parts that snap fits hold leave one by one; those that are proved to be held do not leave.
+/// Parts that snap fits hold leave one by one, unless several of them have moved simultaneously: the interference of a
+/// snap fit is measured along straight motions only. Those that are proved to be held do not leave.
 bool SimultaneousMotion::is_worthwhile(const GroupState& group, const Subassemblies& ids, unsigned round) {
-  if (std::all_of(ids.begin(), ids.end(),
-                  [&](SubassemblyId s) { return snaps_.is_snap_fit(group, s) || is_held(group, s); }))
-    return false;
   const auto known = last_.find(ids);
+  const bool several_moved = known != last_.end() && known->second.several_moved;
+  if (std::all_of(ids.begin(), ids.end(), [&](SubassemblyId s) {
+        return (!several_moved && snaps_.is_snap_fit(group, s)) || is_held(group, s);
+      }))
+    return false;
   if (known == last_.end()) return true;
   const PastMotion& last = known->second;
   if (std::any_of(last.blocked_by.begin(), last.blocked_by.end(),

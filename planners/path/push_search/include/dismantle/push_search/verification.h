@@ -1,7 +1,9 @@
 /// Shows paths to the verifier, and lets the world learn from refusals.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "dismantle/path/resume.h"
@@ -35,7 +37,14 @@ class Verification {
   const std::vector<path::ContactSample>& samples() const { return samples_; }
 
  private:
-  Path with_room(const Path& rubbing, const Work& work) const;
+  /// A form of a path, and why the checker refused it.
+  struct Refused {
+    Path path{};
+    PathCheck check{};
+  };
+
+  Path with_room(Path path, const Work& work) const;
+  std::optional<Path> form_of(const Path& whole, std::size_t k, const Work& work, Refused& last) const;
 
   Problem& problem_;
   std::vector<Path> refusals_;
