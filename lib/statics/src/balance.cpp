@@ -41,11 +41,6 @@ Balance associated(Springs& springs, const std::function<bool()>& stop) {
   return result_of(springs, anchor, false);
 }
 
-bool passes(const Pile& pile, const Balance& by) {
-  return by.balanced && check_equilibrium(pile, by.forces).empty() &&
-         check_created(pile, by.forces, by.displacement).empty();
-}
-
 /// `steady`: ended with a fall whose speed does not change any more.
 Balance coulomb(Springs& springs, bool& steady, const std::function<bool()>& stop) {
   Eigen::VectorXd anchor = springs.at();
@@ -64,7 +59,7 @@ Balance coulomb(Springs& springs, bool& steady, const std::function<bool()>& sto
       if (springs.solve_coupled(stop)) return result_of(springs, springs.at(), true);
       springs.update_limits();
       Balance found = result_of(springs, anchor, true);
-      if (worst < 1e-3 * kBalanced || passes(springs.pile(), found)) return found;
+      if (worst < 1e-3 * kBalanced || is_certified(springs.pile(), found)) return found;
       enough = 0.3 * worst;
     }
     residuals.push_front(residual);
@@ -90,6 +85,11 @@ Balance coulomb(Springs& springs, bool& steady, const std::function<bool()>& sto
 
 }  // namespace
 
+bool is_certified(const Pile& pile, const Balance& by) {
+  return by.balanced && check_equilibrium(pile, by.forces).empty() &&
+         check_created(pile, by.forces, by.displacement).empty();
+}
+
 Balance balance(const Pile& pile, FrictionLaw law, const std::function<bool()>& stop, const Motions& near) {
   Springs springs(pile, law);
   if (springs.size() == 0) return result_of(springs, springs.at(), true);
@@ -97,24 +97,30 @@ Balance balance(const Pile& pile, FrictionLaw law, const std::function<bool()>& 
     if (!near.empty()) springs.start_at(springs.point_of(near));
     return associated(springs, stop);
   }
-  if (!near.empty()) {
-    Springs nearby(pile, law);
-    nearby.start_at(nearby.point_of(near));
-    if (nearby.solve_coupled(stop))
-      if (Balance warm = result_of(nearby, nearby.at(), true); passes(pile, warm)) return warm;
-  }
+  if (!near.empty())
+    if (std::optional<Balance> warm = balance_near(pile, near, stop)) return std::move(*warm);
   bool steady = false;
   Balance found = coulomb(springs, steady, stop);
-  if (!springs.is_long() || steady || passes(pile, found) || (stop && stop())) return found;
+  if (!springs.is_long() || steady || is_certified(pile, found) || (stop && stop())) return found;
   // A long chain gives way far: once more from the displacement of the associated law, which lies nearer.
   Springs any(pile, FrictionLaw::associated);
   if (!associated(any, stop).balanced) return found;
   Springs again(pile, law);
   again.start_at(any.at());
   if (again.solve_coupled(stop))
-    if (Balance second = result_of(again, again.at(), true); passes(pile, second)) return second;
+    if (Balance second = result_of(again, again.at(), true); is_certified(pile, second)) return second;
   Balance second = coulomb(again, steady, stop);
-  return passes(pile, second) ? second : found;
+  return is_certified(pile, second) ? second : found;
 }
+
+std::optional<Balance> balance_near(const Pile& pile, const Motions& near, const std::function<bool()>& stop) {
+  Springs springs(pile, FrictionLaw::coulomb);
+  springs.start_at(springs.point_of(near));
+  if (!springs.solve_coupled(stop)) return std::nullopt;
+  Balance found = result_of(springs, springs.at(), true);
+  return is_certified(pile, found) ? std::optional(std::move(found)) : std::nullopt;
+}
+
+double work_done() { return Springs::work_done(); }
 
 }  // namespace dismantle::statics

@@ -27,6 +27,9 @@ constexpr double kProximalCoupled = 1e-9;
 constexpr double kLeastBed = 0.1;
 constexpr int kNewtonSteps = 60, kCoupledSteps = 25, kLineSteps = 12;
 constexpr double kLineShare = 0.1;  // of the slope at the start: a shorter step is no better for Newton's method
+/// Multiplications for a contact point in a step of Newton's method: law, blocks, line search.
+constexpr double kPointWork = 1000;
+thread_local double work_of_thread = 0;
 
 }  // namespace
 
@@ -96,38 +99,11 @@ Springs::Springs(const Pile& pile, FrictionLaw law)
   }
 }
 
-void Springs::prepare(Blocks& blocks, bool lower) const {
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto fill = [&](Index row, Index column) {
-    if (row < 0 || column < 0 || (lower && row < column)) return;
-    for (Index c = 0; c < 6; ++c)
-      for (Index r = lower && row == column ? c : 0; r < 6; ++r) entries.emplace_back(row + r, column + c, 0.0);
-  };
-  for (const Index i : first_) fill(i, i);
-  for (const Pair& p : pairs_) {
-    fill(p.a, p.b);
-    fill(p.b, p.a);
-  }
-  blocks.matrix.resize(size(), size());
-  blocks.matrix.setFromTriplets(entries.begin(), entries.end());
-  const auto places = [&](Index row, Index column) {
-    std::array<int, 6> at{};
-    if (row < 0 || column < 0 || (lower && row < column)) return at;
-    for (Index c = 0; c < 6; ++c) {
-      const Index top = lower && row == column ? row + c : row;
-      const int* begin = blocks.matrix.innerIndexPtr() + blocks.matrix.outerIndexPtr()[column + c];
-      const int* end = blocks.matrix.innerIndexPtr() + blocks.matrix.outerIndexPtr()[column + c + 1];
-      at[static_cast<std::size_t>(c)] =
-          static_cast<int>(std::lower_bound(begin, end, static_cast<int>(top)) - blocks.matrix.innerIndexPtr());
-    }
-    return at;
-  };
-  for (const Pair& p : pairs_) {
-    blocks.aa.push_back(places(p.a, p.a));
-    blocks.bb.push_back(places(p.b, p.b));
-    blocks.ab.push_back(places(p.a, p.b));
-    blocks.ba.push_back(places(p.b, p.a));
-  }
+BlockMatrix Springs::pattern() const {
+  BlockMatrix::Pairs pairs;
+  for (const Pair& p : pairs_)
+    if (p.a >= 0 && p.b >= 0) pairs.emplace_back(p.a / 6, p.b / 6);
+  return {static_cast<std::size_t>(size() / 6), std::move(pairs)};
 }
 
 Springs::Vec6 Springs::relative(const Pair& pair, const VectorXd& x) const {
@@ -199,14 +175,14 @@ double Springs::step_length(const VectorXd& anchor, const VectorXd& direction) c
   return t;
 }
 
-VectorXd Springs::derivatives(const VectorXd& anchor, bool coupled, Blocks& blocks) const {
-  if (blocks.matrix.size() == 0) prepare(blocks, !coupled);
+VectorXd Springs::derivatives(const VectorXd& anchor, bool coupled) {
+  if (!hessian_) hessian_.emplace(pattern());
   VectorXd gradient = proximal_ * (x_ - anchor) - load_, forces = VectorXd::Zero(size());
-  double* values = blocks.matrix.valuePtr();
-  std::fill(values, values + blocks.matrix.nonZeros(), 0.0);
-  for (Index i = 0; i < size(); ++i) blocks.matrix.coeffRef(i, i) = coupled ? kProximalCoupled : proximal_;
-  for (std::size_t n = 0; n < pairs_.size(); ++n) {
-    const Pair& pair = pairs_[n];
+  hessian_->set_zero();
+  for (Block& b : hessian_->diagonal) b.diagonal().setConstant(coupled ? kProximalCoupled : proximal_);
+  std::size_t next = 0;  // block of the matrix
+  for (const Pair& pair : pairs_) {
+    const std::size_t block = pair.a >= 0 && pair.b >= 0 ? next++ : 0;
     // A point r moves by v + w x r = [1, -R] (v, w): its block is [1, -R]' D [1, -R]. Rows of D R are cross products.
     const Vec6 u = relative(pair, x_);
     Vec6 wrench = Vec6::Zero();
@@ -241,24 +217,18 @@ VectorXd Springs::derivatives(const VectorXd& anchor, bool coupled, Blocks& bloc
     const auto rows = [&](Index i, const Vec3& arm, const Block& m) -> Block {
       return columns(i, arm, m.transpose()).transpose();
     };
-    const auto add = [&](const std::array<int, 6>& at, const Block& m, bool diagonal, double sign) {
-      for (Index c = 0; c < 6; ++c) {
-        double* column = values + at[static_cast<std::size_t>(c)];
-        for (Index r = diagonal && !coupled ? c : 0; r < 6; ++r) *column++ += sign * m(r, c);
-      }
-    };
     Block by_a, by_b;
     if (pair.a >= 0) {
       by_a = columns(pair.a, pair.arm_a, own);
-      add(blocks.aa[n], rows(pair.a, pair.arm_a, by_a), true, 1);
+      hessian_->diagonal[static_cast<std::size_t>(pair.a / 6)] += rows(pair.a, pair.arm_a, by_a);
     }
     if (pair.b >= 0) {
       by_b = columns(pair.b, pair.arm_b, own);
-      add(blocks.bb[n], rows(pair.b, pair.arm_b, by_b), true, 1);
+      hessian_->diagonal[static_cast<std::size_t>(pair.b / 6)] += rows(pair.b, pair.arm_b, by_b);
     }
     if (pair.a < 0 || pair.b < 0) continue;
-    if (coupled || pair.a > pair.b) add(blocks.ab[n], rows(pair.a, pair.arm_a, by_b), false, -1);
-    if (coupled || pair.a < pair.b) add(blocks.ba[n], rows(pair.b, pair.arm_b, by_a), false, -1);
+    hessian_->ab[block] = -rows(pair.a, pair.arm_a, by_b);
+    if (coupled) hessian_->ba[block] = -rows(pair.b, pair.arm_b, by_a);
   }
   return gradient - forces;
 }
@@ -280,15 +250,12 @@ bool Springs::minimize(const VectorXd& anchor, const std::function<bool()>& stop
   double steepest = std::numeric_limits<double>::infinity();
   for (int step = 0; step < kNewtonSteps; ++step) {
     if (stop && stop()) return false;
-    const VectorXd gradient = derivatives(anchor, false, hessian_);
+    const VectorXd gradient = derivatives(anchor, false);
     const double slope_now = gradient.norm() / load_.norm();
     if (slope_now <= 1e-10 || (slope_now <= 1e-7 && slope_now > 0.5 * steepest)) return true;  // or rounding
     steepest = std::min(steepest, slope_now);
-    if (!std::exchange(hessian_.analyzed, true)) factor_.analyzePattern(hessian_.matrix);
-    factor_.factorize(hessian_.matrix);
-    ++factorizations_;
-    if (factor_.info() != Eigen::Success) return false;
-    const VectorXd direction = -factor_.solve(gradient);
+    if (!factorize(true)) return false;
+    const VectorXd direction = -factor_->solve(gradient);
     const double slope = gradient.dot(direction);
     if (!(slope < 0)) return slope_now <= 1e-7;
     x_ += step_length(anchor, direction) * direction;
@@ -313,16 +280,14 @@ bool Springs::solve_coupled(const std::function<bool()>& stop) {
   for (int step = 0; step < kCoupledSteps; ++step) {
     if (stop && stop()) break;
     const VectorXd anchor = x_;
-    const VectorXd rest = derivatives(anchor, true, jacobian_);
+    const VectorXd rest = derivatives(anchor, true);
     if (rest.norm() <= 1e-10 * load_.norm()) {
       update_limits();
       return true;
     }
-    if (!std::exchange(jacobian_.analyzed, true)) coupled_.analyzePattern(jacobian_.matrix);
-    coupled_.factorize(jacobian_.matrix);
-    ++factorizations_;
-    if (coupled_.info() != Eigen::Success) break;
-    const VectorXd direction = -coupled_.solve(rest);
+    if (!factorize(false)) break;
+    VectorXd direction = -factor_->solve(rest);
+    direction -= factor_->solve(rest + hessian_->times(direction));  // what was lost without pivoting
     if (!direction.allFinite()) break;
     // Damping: the unbalanced rest has to become smaller.
     double t = 1;
@@ -334,6 +299,15 @@ bool Springs::solve_coupled(const std::function<bool()>& stop) {
   }
   x_ = start;
   return false;
+}
+
+double Springs::work_done() { return work_of_thread; }
+
+bool Springs::factorize(bool symmetric) {
+  if (!factor_) factor_.emplace(*hessian_);
+  ++factorizations_;
+  work_of_thread += (symmetric ? 1 : 2) * factor_->work() + kPointWork * static_cast<double>(points_.size());
+  return symmetric ? factor_->factorize_symmetric(*hessian_) : factor_->factorize(*hessian_);
 }
 
 VectorXd Springs::unbalanced() const {

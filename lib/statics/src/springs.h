@@ -1,13 +1,11 @@
 /// The convex program of balance(): elastic energy of all contact points, work of the load, and a proximal term.
 #pragma once
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
-#include <Eigen/SparseLU>
-#include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
+#include "block_factor.h"
 #include "contact_law.h"
 #include "dismantle/statics/balance.h"
 
@@ -45,9 +43,11 @@ class Springs {
   double residual(const Eigen::VectorXd& anchor) const;
   Motions motion_of(const Eigen::VectorXd& x) const;
   Eigen::VectorXd point_of(const Motions& motion) const;  ///< the inverse of motion_of()
-  ContactForces forces() const;  ///< in the units of the pile
+  ContactForces forces() const;                           ///< in the units of the pile
   Eigen::Index size() const { return load_.size(); }
   unsigned factorizations() const { return factorizations_; }
+  /// About how many multiplications were taken on this thread.
+  static double work_done();
 
  private:
   struct Point {
@@ -63,14 +63,11 @@ class Springs {
     Eigen::Vector3d arm_a, arm_b;  // from the centres to the origin
   };
   using Vec6 = Eigen::Matrix<double, 6, 1>;
-  using Block = Eigen::Matrix<double, 6, 6>;
-  /// A matrix whose pattern does not change, with the places of the blocks of each pair in its values.
-  struct Blocks {
-    Eigen::SparseMatrix<double> matrix;
-    std::vector<std::array<int, 6>> aa, bb, ab, ba;  // by pair: where each column starts
-    bool analyzed = false;
-  };
-  void prepare(Blocks& blocks, bool lower) const;
+  using Block = BlockMatrix::Block;
+  /// With a block for each pair whose two bodies can move: in the order of `pairs_`.
+  BlockMatrix pattern() const;
+  /// Of `hessian_`. False: it is singular.
+  bool factorize(bool symmetric);
   /// How a moves against b, about the origin of the pair.
   Vec6 relative(const Pair& pair, const Eigen::VectorXd& x) const;
   static Eigen::Vector3d moved(const Point& p, const Vec6& u) { return u.head<3>() + u.tail<3>().cross(p.at); }
@@ -82,8 +79,8 @@ class Springs {
   Eigen::VectorXd unbalanced() const;
   /// About how far to go along a direction of descent: the slope there is a small share of that at the current point.
   double step_length(const Eigen::VectorXd& anchor, const Eigen::VectorXd& direction) const;
-  /// The gradient, and the Hessian: its lower half, or all of it if `coupled`, which takes Coulomb's law itself.
-  Eigen::VectorXd derivatives(const Eigen::VectorXd& anchor, bool coupled, Blocks& blocks) const;
+  /// The gradient, and the Hessian: without `ba`, or all of it if `coupled`, which takes Coulomb's law itself.
+  Eigen::VectorXd derivatives(const Eigen::VectorXd& anchor, bool coupled);
   template <class Use>
   void each_point(const Eigen::VectorXd& x, const Use& use) const {
     for (const Pair& pair : pairs_) {
@@ -101,9 +98,8 @@ class Springs {
   std::vector<Point> points_;         // by pair
   Eigen::VectorXd load_, scale_, x_;  // true coordinate = scale * x
   std::vector<double> share_;         // weight of each body
-  Blocks hessian_, jacobian_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> coupled_;
+  std::optional<BlockMatrix> hessian_;
+  std::optional<BlockFactor> factor_;
   unsigned factorizations_ = 0;
 };
 

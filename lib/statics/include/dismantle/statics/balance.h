@@ -9,6 +9,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "dismantle/export.h"
 #include "dismantle/statics/pile.h"
@@ -32,5 +33,16 @@ struct Balance {
 /// same bodies, from which the search starts; empty: it starts where nothing is displaced.
 DISMANTLE_API Balance balance(const Pile& pile, FrictionLaw law, const std::function<bool()>& stop = {},
                               const Motions& near = {});
+
+/// Is it balanced, with certificates of standing that pass?
+DISMANTLE_API bool is_certified(const Pile& pile, const Balance& balance);
+
+/// Coulomb's law, from the displacement of a similar load alone. With certificates that pass; none: it is not near
+/// enough, or no displacement creates such forces.
+DISMANTLE_API std::optional<Balance> balance_near(const Pile& pile, const Motions& near,
+                                                  const std::function<bool()>& stop = {});
+
+/// About how many multiplications all balances on this thread have taken so far.
+DISMANTLE_API double work_done();
 
 }  // namespace dismantle::statics
