@@ -33,7 +33,7 @@ struct Stability {
   std::string input, folder;
   std::vector<std::string> fixed, density, mass, tilt;
   bool table = false, no_table = false;
-  double friction = 0.4;
+  double friction = 0.4, budget = statics::kExtraWork / 1e9;
   unsigned hands = 0;
   ConfigFlags config;
   ConsoleOptions console;
@@ -132,11 +132,14 @@ std::string text_of(const Json& report, const Stability& asked) {
                               : fmt::format("Tilt about {}: stands up to {:.1f} degrees.\n", axis, angle.get<double>());
   if (!report.at("least_push").empty()) {
     const Json& push = report.at("least_push").front();
-    text += fmt::format("Least push: {:.3g} N on {}, which then {}.\n", push.at("newton").get<double>(),
-                        push.at("part").get<std::string>(), push.at("how").get<std::string>());
+    text += fmt::format("Least push: {}{:.3g} N on {}, which then {}.\n", push.at("exact") ? "" : "at most ",
+                        push.at("newton").get<double>(), push.at("part").get<std::string>(),
+                        push.at("how").get<std::string>());
   }
   for (const Json& f : report.at("by_friction"))
-    text += fmt::format("Friction {:.1f}: {}\n", f.at("friction").get<double>(), f.at("verdict").get<std::string>());
+    text += fmt::format("Friction {:.1f}: {}\n", f.at("friction").get<double>(),
+                        f.at("verdict").is_null() ? "not computed (budget)" : f.at("verdict").get<std::string>());
+  for (const Json& what : report.at("not_checked")) text += fmt::format("{}\n", what.get<std::string>());
   return text;
 }
 
@@ -227,7 +230,8 @@ int stability(const Stability& asked) {
   statics::StabilityOptions how = options_of(asked, assembly);
   how.up = up_of(session.config().layout, assembly);
   const statics::AssemblyPile pile(assembly, std::move(how));
-  const statics::StabilityReport report = statics::judge_assembly(pile, [&] { return context.should_stop(); });
+  const statics::StabilityReport report = statics::judge_assembly(
+      pile, [&] { return context.should_stop(); }, 1e9 * asked.budget);
   console.end_progress();
   if (context.should_stop()) throw Stopped(context, "stopped before the pile was judged");
   Json json = Json::parse(statics::report_json(report, assembly, pile));
@@ -331,6 +335,11 @@ void add_stability(CLI::App& app, Action& action) {
       ->option_text("AXIS=DEGREES");
   command->add_option("--hands", options->hands, "Hands that may hold parts: success if so many holds are enough (0)")
       ->option_text("N");
+  command
+      ->add_option("--budget", options->budget,
+                   "Multiplications, in 10^9, that all answers beside the verdict may take together (150: some 40 s)")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("GIGA");
   command
       ->add_option("-o,--output", options->folder,
                    "Folder for stability.json, which verify takes, and index.html, which shows it")

@@ -54,6 +54,31 @@ class Stability(CliTest):
         self.assertEqual(self.stability("pair", "--fixed", "a", status=1)["holds"], ["b"])
         self.assertEqual(self.stability("pair", "--fixed", "a", "--table")["verdict"], "stands")
 
+    def test_what_does_not_fit_the_budget_is_said(self):
+        self.run_program("sample", "arch", "-o", "arch", status=0)
+        fixed = ("--fixed", "ground", "--friction", "0.55")
+        whole = self.stability("arch", *fixed)
+        self.assertEqual((whole["verdict"], whole["not_checked"], len(whole["least_push"])), ("stands", [], 9))
+        self.assertTrue(all(push["exact"] for push in whole["least_push"]))
+        for axis, bounds in whole["critical_tilt_bounds_degrees"].items():
+            angle = whole["critical_tilt_degrees"][axis]
+            self.assertLess(angle - bounds["stands"], 0.02 * angle, axis)
+            if bounds["falls"] is not None:
+                self.assertLessEqual(angle, bounds["falls"] + 1e-3, axis)
+        # Without a budget: the verdict, and what its certificate says about other frictions.
+        none = self.stability("arch", *fixed, "--budget", "0", "-o", "out")
+        self.assertEqual(none["verdict"], "stands")
+        self.assertFalse(any(push["exact"] for push in none["least_push"]))
+        self.assertIn({"friction": 0.2, "verdict": None}, none["by_friction"])
+        self.assertIn({"friction": 0.6, "verdict": "stands"}, none["by_friction"])
+        said = ["friction 0.2: not computed (budget)", "critical tilt about x: not computed (budget)", "least push on 9 of 9 parts: not computed (budget)"]
+        for line in said:
+            self.assertIn(line, none["not_checked"])
+        text = self.run_program("stability", "arch", *fixed, "--budget", "0", status=0).stdout
+        for line in [*said, "Friction 0.2: not computed (budget)"]:
+            self.assertIn(line, text)
+        self.run_program("verify", "out/stability.json", status=0)
+
     def test_densities_move_the_centre(self):
         self.write_boxes("lever", foot=((0, 0, 0), (20, 10, 10)), plank=((0, 0, 10), (50, 10, 12)), weight=((0, 0, 12), (10, 10, 22)))
         self.stability("lever", "--density", "plank=4", status=1)

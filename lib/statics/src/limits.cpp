@@ -14,9 +14,8 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 using Stop = std::function<bool()>;
 
-constexpr double kSteepest = 89 * M_PI / 180;
 constexpr double kNear = 3e-4;  // of a value: that near is found
-constexpr int kCuts = 50, kHalvings = 14, kTilts = 8;
+constexpr int kCuts = 50;
 
 /// Work of the weights in a motion when gravity points to `down`.
 double work(const Pile& pile, const Motions& motion, const Vec3& down) {
@@ -56,41 +55,22 @@ double largest_balanced(double high, const std::function<Probe(double)>& probe, 
   return low > 0 ? low : high;
 }
 
-/// Largest angle at which forces balance the pile, at most kSteepest. `near`: a displacement as it is.
-double balanced_up_to(const Pile& pile, const Vec3& axis, const Motions& near, const Stop& stop) {
-  // Most piles slide first, and from a tilt nearby less has to be found out than from the steepest.
-  double friction = 0;
-  for (const Contact& c : pile.contacts) friction = std::max(friction, c.friction);
-  const auto largest_up_to = [&](double steepest) {
-    return largest_balanced(
-        steepest,
-        [&](double x) -> Probe {
-          const Pile turned = tilted(pile, axis, x);
-          const Balance found = balance(turned, FrictionLaw::associated, stop, near);
-          if (found.balanced) return {true, {}};
-          if (!check_fall(turned, found.falling).empty()) return {};
-          // Work at the angle t: always + along * cos(t) + across * sin(t), for gravity turned about the axis.
-          const Vec3 fixed_part = axis.dot(pile.down) * axis;
-          const double along = work(pile, found.falling, pile.down - fixed_part);
-          const double across = work(pile, found.falling, -axis.cross(pile.down));
-          const double size = std::hypot(along, across);
-          if (!(size > 0)) return {};
-          const double cosine = std::clamp(-work(pile, found.falling, fixed_part) / size, -1.0, 1.0);
-          return {false, std::max(0.0, std::atan2(across, along) - std::acos(cosine))};
-        },
-        stop);
-  };
-  const double slides = std::min(kSteepest, 1.1 * std::atan(friction)), found = largest_up_to(slides);
-  return found < slides || slides == kSteepest ? found : largest_up_to(kSteepest);
-}
-
 /// The least horizontal push at the centre of a body that some motion gives way to.
 class PushSearch {
  public:
-  PushSearch(const Pile& pile, std::uint32_t body, const Stop& stop)
+  PushSearch(const Pile& pile, std::uint32_t body, const Stop& stop, const Motions& near,
+             const std::optional<LeastPush>& bound)
       : pile_(pile), pushed_(pile), body_(body), stop_(stop), u_(pile.down.unitOrthogonal()), v_(pile.down.cross(u_)) {
     for (const Body& b : pile.bodies) total_ += b.fixed ? 0 : b.weight;
     known_ = kMostPush * total_;
+    if (bound && bound->force < known_) {
+      least_ = bound;
+      least_->exact = true;
+      known_ = bound->force;
+      add_cut(bound->motion);
+    }
+    near_ = near;
+    if (!near_.empty()) return;
     if (Balance rest = balance(pile, FrictionLaw::associated, stop); rest.balanced)
       near_ = std::move(rest.displacement);
   }
@@ -146,13 +126,17 @@ class PushSearch {
     }
     motion_ = std::move(found.falling);
     if (!check_fall(pushed_, motion_).empty()) return {};
-    // The weights resist the motion by -weights, the push drives it by its force times forward.
-    double weights = work(pile_, motion_, pile_.down);
-    for (const Push& p : pile_.pushes) weights += motion_[p.body].at(p.at - pile_.bodies[p.body].center).dot(p.force);
-    const Vec2 forward(motion_[body_].v.dot(u_), motion_[body_].v.dot(v_));
-    cuts_.push_back({forward, std::max(0.0, -weights), motion_});
+    add_cut(motion_);
     const double most = cuts_.back().reach(direction);
     return {false, std::isfinite(most) ? std::optional(most) : std::nullopt};
+  }
+
+  void add_cut(const Motions& motion) {
+    // The weights resist the motion by -weights, the push drives it by its force times forward.
+    double weights = work(pile_, motion, pile_.down);
+    for (const Push& p : pile_.pushes) weights += motion[p.body].at(p.at - pile_.bodies[p.body].center).dot(p.force);
+    const Vec2 forward(motion[body_].v.dot(u_), motion[body_].v.dot(v_));
+    cuts_.push_back({forward, std::max(0.0, -weights), motion});
   }
 
   const Cut* nearest_cut(const Vec2& direction) const {
@@ -198,39 +182,30 @@ class PushSearch {
 
 }  // namespace
 
-Pile tilted(Pile pile, const Vec3& axis, double angle) {
-  pile.down = Eigen::AngleAxisd(-angle, axis) * pile.down;
-  return pile;
+std::optional<LeastPush> least_push(const Pile& pile, std::uint32_t body, const Stop& stop, const Motions& near,
+                                    const std::optional<LeastPush>& bound) {
+  return PushSearch(pile, body, stop, near, bound).run();
 }
 
-std::optional<double> critical_tilt(const Pile& pile, const Vec3& axis, const Stop& stop) {
-  Motions near;  // displacement of the last angle at which it stands
-  const auto stands = [&](double angle) {
-    Judgement judged = judge(tilted(pile, axis, angle), stop, near);
-    if (judged.verdict == Verdict::stands) near = std::move(judged.displacement);
-    return judged.verdict == Verdict::stands;
-  };
-  if (!stands(0)) return 0.0;
-  double high = balanced_up_to(pile, axis, near, stop), low = 0;
-  // What is pressed in at one angle may stand at a larger one: the first angle counts.
-  const double steepest = high;
-  for (int k = 1; k <= kTilts; ++k) {
-    const double share = k < kTilts ? static_cast<double>(k) / kTilts : steepest == kSteepest ? 1 : 0.995;
-    const double angle = share * steepest;
-    if (!stands(angle)) {
-      high = angle;
-      break;
+std::optional<LeastPush> least_push_alone(const Pile& pile, std::uint32_t body, const Stop& stop) {
+  constexpr std::uint32_t kFixed = 0, kOwn = 1;
+  Pile alone{{{0, Vec3::Zero(), 1, true}, pile.bodies[body]}, {}, pile.down};
+  for (const Contact& c : pile.contacts)
+    if (c.a == body || c.b == body) {
+      alone.contacts.push_back(c);
+      alone.contacts.back().a = c.a == body ? kOwn : kFixed;
+      alone.contacts.back().b = c.b == body ? kOwn : kFixed;
     }
-    low = angle;
-  }
-  if (low > 0.99 * steepest) return steepest == kSteepest ? std::nullopt : std::optional(steepest);
-  for (int k = 0; k < kHalvings && high - low > 1e-3 && !(stop && stop()); ++k)
-    (stands(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
-  return 0.5 * (low + high);
-}
-
-std::optional<LeastPush> least_push(const Pile& pile, std::uint32_t body, const Stop& stop) {
-  return PushSearch(pile, body, stop).run();
+  for (const Push& p : pile.pushes)
+    if (p.body == body) alone.pushes.push_back({kOwn, p.at, p.force});
+  std::optional<LeastPush> found = least_push(alone, kOwn, stop);
+  if (!found) return std::nullopt;
+  Motions motion(pile.bodies.size());
+  motion[body] = found->motion[kOwn];
+  found->body = body;
+  found->motion = std::move(motion);
+  found->exact = false;
+  return found;
 }
 
 }  // namespace dismantle::statics

@@ -1,5 +1,7 @@
 #include "dismantle/statics/stability.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +11,7 @@
 #include "bonds.h"
 #include "dismantle/geometry/length_unit.h"
 #include "dismantle/statics/balance.h"
+#include "dismantle/statics/budget.h"
 #include "dismantle/statics/describe.h"
 
 namespace dismantle::statics {
@@ -18,7 +21,9 @@ using Vec3 = Eigen::Vector3d;
 using Stop = std::function<bool()>;
 
 constexpr double kFrictions[] = {0.2, 0.3, 0.4, 0.5, 0.6};
-constexpr std::size_t kMostPushed = 60;  // parts: sixteen directions for each of them
+/// Shares of the budget that is left: each of the frictions, each of the tilts, and the least holds. Of the whole:
+/// pushes.
+constexpr double kForFriction = 0.1, kForTilt = 0.15, kForHolds = 0.7, kForPushes = 0.1;
 
 /// Contacts of all pairs whose boxes are near, in the input's units.
 void add_contacts(const Assembly& assembly, const Bonds& bonds, const std::vector<Shape>& shapes,
@@ -94,6 +99,158 @@ std::vector<Variant> flips_between(std::vector<Variant> variants, const Stop& st
   return {};
 }
 
+bool same_contacts(const Pile& a, const Pile& b) {
+  return std::ranges::equal(a.contacts, b.contacts, [](const Contact& x, const Contact& y) {
+    return x.a == y.a && x.b == y.b && x.normal == y.normal && x.points == y.points && x.friction == y.friction &&
+           x.bonded == y.bonded;
+  });
+}
+
+/// Verdicts of piles of the same bodies.
+class Verdicts {
+ public:
+  /// What is certified of a similar pile is tried first. That a pile is pressed in is not all in its certificate.
+  Judgement of(const Pile& pile, const Stop& stop) {
+    for (const auto& [other, judgement] : known_) {
+      if (same_contacts(pile, other)) return judgement;
+      const bool proved = judgement.verdict == Verdict::stands || judgement.verdict == Verdict::falls;
+      if (proved && check_judgement(pile, judgement).empty()) return judgement;
+    }
+    Judgement found = judge(pile, stop);
+    if (!(stop && stop())) known_.emplace_back(pile, found);
+    return found;
+  }
+
+ private:
+  std::vector<std::pair<Pile, Judgement>> known_;
+};
+
+/// The answers beside the verdict, within a budget.
+class Answers {
+ public:
+  Answers(const AssemblyPile& assembly, StabilityReport& report, Verdicts& verdicts, double work, const Stop& stop)
+      : assembly_(assembly),
+        report_(report),
+        pile_(report.pile),
+        verdicts_(verdicts),
+        budget_(work),
+        for_pushes_(kForPushes * work),
+        stop_(stop) {}
+
+  void find() {
+    find_frictions();
+    if (report_.judgement.verdict == Verdict::stands) {
+      report_.holds.found = report_.holds.proved = true;
+      find_tilts();
+      find_pushes();
+    } else {
+      for (TiltLimit& tilt : report_.tilts) tilt.angle = 0;
+      find_holds();
+      find_moves();
+    }
+  }
+
+ private:
+  /// Takes a share of what is left; `find(stop)` ends when it is used up. False: it did.
+  template <class Find>
+  bool within(double share, const Find& find) {
+    return within_work(share * budget_.left(), find);
+  }
+  template <class Find>
+  bool within_work(double work, const Find& find) {
+    const Budget part(std::min(work, budget_.left()));
+    find([&] { return part.spent() || (stop_ && stop_()); });
+    return !part.spent();
+  }
+
+  void find_frictions() {
+    report_.by_friction.assign(std::size(kFrictions), {});
+    std::vector<std::size_t> order;  // those near the stated one first: their certificates may do for the others
+    for (std::size_t i = 0; i < std::size(kFrictions); ++i) {
+      report_.by_friction[i].first = kFrictions[i];
+      order.push_back(i);
+    }
+    const double own = assembly_.options().friction;
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return std::abs(kFrictions[i] - own); });
+    for (const std::size_t i : order) {
+      Pile other = pile_;
+      for (Contact& c : other.contacts) c.friction = kFrictions[i];
+      Verdict verdict = Verdict::uncertain;
+      if (within(kForFriction, [&](const Stop& stop) { verdict = verdicts_.of(other, stop).verdict; }))
+        report_.by_friction[i].second = verdict;
+      else
+        report_.not_computed.push_back(fmt::format("friction {:.1f}", kFrictions[i]));
+    }
+  }
+
+  void find_tilts() {
+    for (std::size_t i = 0; i < kTiltAxes.size(); ++i) {
+      const Vec3 axis = (i < 2 ? 1.0 : -1.0) * Vec3::Unit(static_cast<Eigen::Index>(i % 2));
+      TiltLimit& tilt = report_.tilts[i];
+      within(kForTilt, [&](const Stop& stop) { tilt = tilt_limit(pile_, axis, report_.judgement.displacement, stop); });
+      if (!tilt.found) report_.not_computed.push_back(fmt::format("critical tilt about {}", kTiltAxes[i]));
+    }
+  }
+
+  /// Of one body after the other; first those that a small push moves even if all others are held. Where the budget is
+  /// spent that push is an upper bound.
+  void find_pushes() {
+    std::vector<std::pair<std::uint32_t, std::optional<LeastPush>>> bodies;
+    std::size_t left = 0;
+    for (const Body& b : pile_.bodies) left += b.fixed ? 0 : 1;
+    const std::size_t all = left;
+    within_work(for_pushes_, [&](const Stop& stop) {
+      const Motions rest = balance(pile_, FrictionLaw::associated, stop).displacement;
+      for (std::uint32_t i = 0; i < pile_.bodies.size(); ++i) {
+        if (pile_.bodies[i].fixed) continue;
+        std::optional<LeastPush> alone = least_push_alone(pile_, i, stop);
+        if (stop()) break;
+        bodies.emplace_back(i, std::move(alone));
+      }
+      std::ranges::stable_sort(bodies, {}, [](const auto& b) {
+        return b.second ? b.second->force : std::numeric_limits<double>::infinity();
+      });
+      for (auto& [body, bound] : bodies) {
+        std::optional<LeastPush> push = least_push(pile_, body, stop, rest, bound);
+        if (stop()) break;
+        --left;
+        bound = std::move(push);
+      }
+    });
+    for (auto& [body, push] : bodies)
+      if (push) report_.pushes.push_back(std::move(*push));
+    if (left > 0) report_.not_computed.push_back(fmt::format("least push on {} of {} parts", left, all));
+    std::ranges::stable_sort(report_.pushes, {}, &LeastPush::body);
+    std::ranges::stable_sort(report_.pushes, {}, &LeastPush::force);
+  }
+
+  void find_holds() {
+    if (within(kForHolds, [&](const Stop& stop) { report_.holds = least_holds(pile_, stop); })) return;
+    report_.holds = {};
+    report_.not_computed.emplace_back("holds");
+  }
+
+  void find_moves() {
+    Balance sliding;                                                           // friction as it is, for people
+    const bool pressed_in = report_.judgement.verdict == Verdict::pressed_in;  // it is known
+    if (pressed_in || !within(1, [&](const Stop& stop) { sliding = balance(pile_, FrictionLaw::coulomb, stop); }))
+      sliding = {};
+    const Motions& motion = sliding.falling.empty() ? report_.judgement.motion : sliding.falling;
+    if (motion.empty()) return;
+    report_.moves = moves_of(pile_, motion, assembly_.options().fixed.size());
+    report_.why = reasons_of(pile_, motion, assembly_.assembly(), report_.moves);
+    report_.falling = motion;
+  }
+
+  const AssemblyPile& assembly_;
+  StabilityReport& report_;
+  const Pile& pile_;
+  Verdicts& verdicts_;
+  Budget budget_;
+  double for_pushes_;
+  const Stop& stop_;
+};
+
 }  // namespace
 
 AssemblyPile::AssemblyPile(const Assembly& assembly, StabilityOptions options)
@@ -144,51 +301,22 @@ Pile AssemblyPile::pile(double factor) const {
   return pile;
 }
 
-StabilityReport judge_assembly(const AssemblyPile& assembly, const Stop& stop) {
+StabilityReport judge_assembly(const AssemblyPile& assembly, const Stop& stop, double work) {
   StabilityReport report;
   report.pile = assembly.pile();
-  Pile& pile = report.pile;
-  report.judgement = judge(pile, stop);
+  Verdicts verdicts;
+  report.judgement = verdicts.of(report.pile, stop);
   const Verdict verdict = report.judgement.verdict;
   std::vector<Variant> variants;
   for (const double factor : {0.5, 1.0, 2.0}) {
     Variant v;
     v.touching = factor;
-    v.pile = factor == 1 ? pile : assembly.pile(factor);
-    v.judgement = factor == 1 ? report.judgement : judge(v.pile, stop);
+    v.pile = factor == 1 ? report.pile : assembly.pile(factor);
+    v.judgement = verdicts.of(v.pile, stop);
     report.at_tolerances.push_back(v.judgement.verdict);
     variants.push_back(std::move(v));
   }
-  for (const double friction : kFrictions) {
-    Pile other = pile;
-    for (Contact& c : other.contacts) c.friction = friction;
-    report.by_friction.emplace_back(friction, judge(other, stop).verdict);
-  }
-  if (verdict == Verdict::stands) {
-    report.holds.found = report.holds.proved = true;
-    report.tilt_x = critical_tilt(pile, Vec3::UnitX(), stop);
-    report.tilt_y = critical_tilt(pile, Vec3::UnitY(), stop);
-    report.tilt_back_x = critical_tilt(pile, -Vec3::UnitX(), stop);
-    report.tilt_back_y = critical_tilt(pile, -Vec3::UnitY(), stop);
-    std::size_t loose = 0;
-    for (const Body& b : pile.bodies) loose += !b.fixed;
-    report.pushes_left_out = loose > kMostPushed;
-    for (std::uint32_t i = 0; i < pile.bodies.size() && !report.pushes_left_out; ++i)
-      if (!pile.bodies[i].fixed)
-        if (auto push = least_push(pile, i, stop)) report.pushes.push_back(std::move(*push));
-    std::stable_sort(report.pushes.begin(), report.pushes.end(),
-                     [](const LeastPush& a, const LeastPush& b) { return a.force < b.force; });
-  } else {
-    report.tilt_x = report.tilt_y = report.tilt_back_x = report.tilt_back_y = 0;
-    report.holds = least_holds(pile, stop);
-    const Balance sliding = balance(pile, FrictionLaw::coulomb, stop);  // friction as it is, for people
-    const Motions& motion = sliding.falling.empty() ? report.judgement.motion : sliding.falling;
-    if (!motion.empty()) {
-      report.moves = moves_of(pile, motion, assembly.options().fixed.size());
-      report.why = reasons_of(pile, motion, assembly.assembly(), report.moves);
-      report.falling = motion;
-    }
-  }
+  Answers(assembly, report, verdicts, work, stop).find();
   if (std::any_of(report.at_tolerances.begin(), report.at_tolerances.end(), [&](Verdict v) { return v != verdict; }))
     report.judgement.verdict = Verdict::uncertain;
   if (report.judgement.verdict == Verdict::uncertain) {

@@ -156,21 +156,26 @@ std::string report_json(const StabilityReport& report, const Assembly& assembly,
   for (const PartMove& m : report.moves)
     json["moves"].push_back({{"part", name_of(m.part, assembly)}, {"direction", json_of(m.direction)}});
   json["why"] = report.why;
-  json["critical_tilt_degrees"] = {{"x", degrees(report.tilt_x)},
-                                   {"y", degrees(report.tilt_y)},
-                                   {"-x", degrees(report.tilt_back_x)},
-                                   {"-y", degrees(report.tilt_back_y)}};
+  for (const char* tilts : {"critical_tilt_degrees", "critical_tilt_bounds_degrees"}) json[tilts] = Json::object();
+  for (std::size_t i = 0; i < kTiltAxes.size(); ++i) {
+    const TiltLimit& tilt = report.tilts[i];
+    const std::string axis(kTiltAxes[i]);
+    json["critical_tilt_degrees"][axis] = degrees(tilt.angle);
+    json["critical_tilt_bounds_degrees"][axis] = {{"stands", degrees(tilt.stands)}, {"falls", degrees(tilt.falls)}};
+  }
   json["least_push"] = Json::array();
   for (const LeastPush& p : report.pushes)
     json["least_push"].push_back({{"part", name_of(p.body, assembly)},
                                   {"newton", p.force},
                                   {"share_of_weight", p.force / report.pile.bodies[p.body].weight},
                                   {"direction", json_of(p.direction)},
-                                  {"how", how(p, report.pile)}});
+                                  {"how", how(p, report.pile)},
+                                  {"exact", p.exact}});
   json["friction"] = pile.options().friction;
   json["by_friction"] = Json::array();
   for (const auto& [friction, verdict] : report.by_friction)
-    json["by_friction"].push_back({{"friction", friction}, {"verdict", to_string(verdict)}});
+    json["by_friction"].push_back(
+        {{"friction", friction}, {"verdict", verdict ? Json(to_string(*verdict)) : Json(nullptr)}});
   json["by_contact_tolerance"] = Json::array();
   for (std::size_t k = 0; k < report.at_tolerances.size(); ++k)
     json["by_contact_tolerance"].push_back(
@@ -185,7 +190,7 @@ std::string report_json(const StabilityReport& report, const Assembly& assembly,
                      {"touching", pile.options().touching},
                      {"table", pile.options().table}};
   json["not_checked"] = Json::array();
-  if (report.pushes_left_out) json["not_checked"].push_back("least_push: too many parts");
+  for (const std::string& what : report.not_computed) json["not_checked"].push_back(what + ": not computed (budget)");
   return json.dump();
 }
 

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <random>
 
+#include "dismantle/statics/budget.h"
 #include "dismantle/statics/holds.h"
 #include "piles.h"
 
@@ -40,6 +41,35 @@ TEST(CriticalTilt, OfAnArchIsThatOfThePaper) {
   const auto tilt = critical_tilt(pile_of(meshes, 2, 1.0), Vec3::UnitY());
   ASSERT_TRUE(tilt);
   EXPECT_NEAR(*tilt / kDegrees, 8.2, 0.08);
+}
+
+// Rows of bricks on each other. What the search says of its end is certified, and a budget ends it at the same point
+// each time.
+TEST(TiltLimit, IsBetweenItsCertificatesAndEndsWithItsBudget) {
+  std::vector<Mesh> meshes{box({-5, -5, -1}, {20, 5, 0})};
+  for (int row = 0; row < 6; ++row)
+    for (int k = 0; k < 6; ++k) {
+      const double x = k + 0.3 * (row % 2), z = 0.4 * row;
+      meshes.push_back(box({x, 0, z}, {x + 1, 0.5, z + 0.4}));
+    }
+  const Pile pile = pile_of(meshes, 1, 0.6);
+  const Judgement judged = judge(pile);
+  ASSERT_EQ(judged.verdict, Verdict::stands);
+  const TiltLimit whole = tilt_limit(pile, Vec3::UnitX(), judged.displacement);
+  ASSERT_TRUE(whole.found && whole.angle && whole.falls);
+  EXPECT_NEAR(*whole.angle / kDegrees, std::atan(0.5 / 2.4) / kDegrees, 0.1);  // the wall topples as a whole
+  EXPECT_EQ(judge(tilted(pile, Vec3::UnitX(), whole.stands)).verdict, Verdict::stands);
+  EXPECT_EQ(judge(tilted(pile, Vec3::UnitX(), *whole.falls + 1e-4)).verdict, Verdict::falls);
+  EXPECT_LT(*whole.falls - whole.stands, 0.02 * *whole.angle);
+  TiltLimit ended[2];
+  for (TiltLimit& limit : ended) {
+    const Budget budget(10e6);
+    limit = tilt_limit(pile, Vec3::UnitX(), judged.displacement, [&] { return budget.spent(); });
+    EXPECT_FALSE(limit.found);
+    EXPECT_LT(limit.stands, whole.stands);
+    EXPECT_EQ(limit.angle, limit.stands);
+  }
+  EXPECT_EQ(ended[0].stands, ended[1].stands);
 }
 
 // A drawer: its tongue is under a ceiling, its rims are on legs. The weight presses the front of the rims, and the

@@ -1,10 +1,12 @@
 /// Statics of an assembly: `dismantle stability`.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -70,14 +72,22 @@ struct StabilityReport {
   std::vector<PartMove> moves{};
   Motions falling{};               ///< the motion of `moves`; empty: nothing falls
   std::vector<std::string> why{};  ///< "'plate' tips towards -x: nothing is under its half towards -x": what begins it
-  std::optional<double> tilt_x{}, tilt_y{}, tilt_back_x{}, tilt_back_y{};  ///< rad; none: more than 89 degrees
-  std::vector<LeastPush> pushes{};                                         ///< smallest first
-  bool pushes_left_out = false;                                            ///< too many parts
-  std::vector<std::pair<double, Verdict>> by_friction{};
+  std::array<TiltLimit, 4> tilts{};  ///< about the axes of kTiltAxes
+  std::vector<LeastPush> pushes{};   ///< smallest first
+  /// Friction and verdict; none: not computed.
+  std::vector<std::pair<double, std::optional<Verdict>>> by_friction{};
+  std::vector<std::string> not_computed{};  ///< "holds": what did not fit the budget
 };
 
-/// Judges an assembly. `stop`: true ends it with what is known.
-DISMANTLE_API StabilityReport judge_assembly(const AssemblyPile& assembly, const std::function<bool()>& stop = {});
+inline constexpr std::array<std::string_view, 4> kTiltAxes = {"x", "y", "-x", "-y"};
+
+/// Multiplications that the answers beside the verdict may take together: some 40 s.
+inline constexpr double kExtraWork = 150e9;
+
+/// Judges an assembly. `stop`: true ends it with what is known. The verdict with its certificate is always found out;
+/// all else takes at most `work` multiplications.
+DISMANTLE_API StabilityReport judge_assembly(const AssemblyPile& assembly, const std::function<bool()>& stop = {},
+                                             double work = kExtraWork);
 
 /// The report as JSON text: the verdict and all that depends on it.
 DISMANTLE_API std::string report_json(const StabilityReport& report, const Assembly& assembly,
