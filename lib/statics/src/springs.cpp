@@ -28,7 +28,7 @@ constexpr double kLeastBed = 0.1;
 constexpr int kNewtonSteps = 60, kCoupledSteps = 25, kLineSteps = 12;
 constexpr double kLineShare = 0.1;  // of the slope at the start: a shorter step is no better for Newton's method
 /// Multiplications for a contact point in a step of Newton's method: law, blocks, line search.
-constexpr double kPointWork = 1000;
+constexpr double kPointWork = 2000;
 thread_local double work_of_thread = 0;
 
 }  // namespace
