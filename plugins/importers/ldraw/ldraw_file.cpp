@@ -117,6 +117,8 @@ class Parser {
       content_ = true;
     } else if (word == "!LDRAW_ORG" || word == "LDRAW_ORG") {
       current_.type = words.next();
+    } else if (word == "!CATEGORY") {
+      current_.category = one_blank(words.rest());
     } else if (word == "BFC") {
       bfc(words);
     } else if (word == "STEP") {

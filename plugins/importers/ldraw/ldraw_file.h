@@ -15,9 +15,7 @@ namespace dismantle::ldraw {
 struct Placement {
   Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-  Placement operator*(const Placement& inner) const {
-    return {linear * inner.linear, linear * inner.shift + shift};
-  }
+  Placement operator*(const Placement& inner) const { return {linear * inner.linear, linear * inner.shift + shift}; }
 };
 
 /// A line of type 1: another file, placed.
@@ -53,6 +51,7 @@ struct Colour {
 struct LdrawFile {
   std::string name;         ///< as it names itself
   std::string description;  ///< its first line, blanks reduced
+  std::string category;     ///< of !CATEGORY; empty: the first word of the description
   std::string type;         ///< of !LDRAW_ORG: "Part", "Shortcut", "Primitive", "Model"; empty: not stated
   std::vector<Reference> references;
   std::vector<Polygon> polygons;

@@ -173,19 +173,33 @@ class Walk {
     push(std::move(part));
   }
 
-  /// Description of a part; of a file that only says where a part has moved to, that of the part.
-  std::string name_of(const std::string& key, const LdrawFile& file) {
+  /// The file that describes a part; of one that only says where a part has moved to, that of the part.
+  const LdrawFile& described(const LdrawFile& file) {
     const LdrawFile* of = &file;
     std::optional<Found> next;
     for (std::size_t hops = 0; of->description.starts_with("~Moved to") && of->references.size() == 1; ++hops) {
       if (hops == kDeepest || !(next = library_.find(of->references.front().name))) break;
       of = next->file;
     }
-    return of->description.empty() ? key : of->description;
+    return *of;
+  }
+
+  std::string name_of(const std::string& key, const LdrawFile& file) {
+    const std::string& description = described(file).description;
+    return description.empty() ? key : description;
+  }
+
+  /// Tyres are of rubber, whatever colour a model gives them.
+  bool is_tyre(const LdrawFile& file) {
+    const LdrawFile& of = described(file);
+    std::string category = of.category.empty() ? of.description.substr(0, of.description.find(' ')) : of.category;
+    category.erase(0, category.find_first_not_of("~_=|"));  // marks of parts that are no longer used, and the like
+    return name_key(category) == "tyre";
   }
 
   std::uint32_t add_part(const std::string& key, const Found& found, const Place& place) {
     RawPart part = raw(name_of(key, *found.file), place, key);
+    part.flexible = part.flexible || is_tyre(*found.file);
     const PartMesh& shape = meshes_.of(key);
     part.problem = shape.problem;
     const double volume = place.placement.linear.determinant();

@@ -90,6 +90,23 @@ TEST_F(Ldraw, PartsInColoursOfRubberAreFlexible) {
   EXPECT_EQ(parts[1].colour, (Rgba{0x21, 0x21, 0x21, 255}));
 }
 
+/// The category is a statement, or the first word of the description.
+TEST_F(Ldraw, TyresAreFlexibleInAnyColour) {
+  const std::string at = "1 4 0 0 0 1 0 0 0 1 0 0 0 1 ";
+  const std::string part = "0 !LDRAW_ORG Part\n0 BFC CERTIFY CCW\n" + box(20, 24, 10);
+  write("library/parts/t1.dat", "0 Tyre  8/ 40 x  8\n" + part);
+  write("library/parts/t2.dat", "0 ~Tyre 12/ 40 (Obsolete)\n" + part);
+  write("library/parts/t3.dat", "0 Balloon\n0 !CATEGORY Tyre\n" + part);
+  write("library/parts/t4.dat", "0 ~Moved to t1\n0 !LDRAW_ORG Part\n1 16 0 0 0 1 0 0 0 1 0 0 0 1 t1.dat\n");
+  write("library/parts/w1.dat", "0 Wheel for Tyre\n" + part);
+  write("library/parts/w2.dat", "0 Tyre Lever\n0 !CATEGORY Tool\n" + part);
+  std::string model = "0 Car\n";
+  for (const char* file : {"t1", "t2", "t3", "t4", "w1", "w2"}) model += at + file + ".dat\n";
+  std::vector<bool> flexible;
+  for (const RawPart& p : read(model)) flexible.push_back(p.flexible);
+  EXPECT_EQ(flexible, (std::vector<bool>{true, true, true, true, false, false}));
+}
+
 /// The library keeps old numbers as files that only refer to the new one: the part has the name of that.
 TEST_F(Ldraw, PartsThatHaveMovedHaveTheirName) {
   const std::string at = "1 16 0 0 0 1 0 0 0 1 0 0 0 1 ";
