@@ -48,7 +48,8 @@ class FreeSpaceSampler {
   Rng rng_{7};
   bool is_separated_ = false;
   Vector6 lo_ = Vector6::Zero(), hi_ = Vector6::Zero();
-  std::vector<std::uint32_t> order_;  ///< samples, the last one that blocked first
+  std::vector<std::uint32_t> order_;     ///< samples, the last one that blocked first
+  std::vector<std::uint32_t> by_place_;  ///< samples: neighbours are near each other
   std::vector<Vector6> poses_;
   std::array<std::size_t, 12> furthest_{};  ///< poses with the least and the largest value of each coordinate
   std::set<std::uint32_t> blocking_;

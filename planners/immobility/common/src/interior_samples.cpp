@@ -1,6 +1,7 @@
 #include "dismantle/immobility/interior_samples.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -133,15 +134,52 @@ RelativePose::RelativePose(const SampledPair& pair, const Vector6& x)
   max_displacement_ = shift_.norm() + pair.radius() * (rotation_ - Eigen::Matrix3d::Identity()).norm();
 }
 
-Vec3 RelativePose::position(const InteriorSample& sample) const {
-  const Vec3 p =
-      sample.of_a ? Vec3(rotation_ * sample.at + shift_) : Vec3(rotation_.transpose() * (sample.at - shift_));
-  const SampledPair::Obstacle& obstacle = pair_->obstacle(sample);
-  return obstacle.rotation * (p + pair_->center()) + obstacle.to_local.t;
+/// Relative to the centre.
+Vec3 RelativePose::moved(const InteriorSample& sample) const {
+  return sample.of_a ? Vec3(rotation_ * sample.at + shift_) : Vec3(rotation_.transpose() * (sample.at - shift_));
 }
+
+Vec3 RelativePose::in_frame_of_obstacle(const InteriorSample& sample, const Vec3& moved) const {
+  const SampledPair::Obstacle& obstacle = pair_->obstacle(sample);
+  return obstacle.rotation * (moved + pair_->center()) + obstacle.to_local.t;
+}
+
+Vec3 RelativePose::position(const InteriorSample& sample) const { return in_frame_of_obstacle(sample, moved(sample)); }
 
 bool RelativePose::inside(const InteriorSample& sample) const {
   return pair_->obstacle(sample).occupied.inside(position(sample));
+}
+
+std::optional<Vec3> RelativePose::position_if_near(const InteriorSample& sample) const {
+  if (sample.clearance > max_displacement_) return std::nullopt;
+  const Vec3 there = moved(sample);
+  if ((there - sample.at).squaredNorm() < sample.clearance * sample.clearance) return std::nullopt;
+  return in_frame_of_obstacle(sample, there);
+}
+
+bool RelativePose::blocked_by(const InteriorSample& sample) const {
+  const std::optional<Vec3> there = position_if_near(sample);
+  return there && pair_->obstacle(sample).occupied.inside(*there);
+}
+
+bool RelativePose::blocked_by_any(std::span<const std::uint32_t> samples) const {
+  std::array<Vec3, 64> points;
+  std::size_t count = 0;
+  std::uint32_t obstacle = 0;  // of the points
+  const auto any_inside = [&] {
+    const bool any = pair_->obstacle(obstacle).occupied.any_inside({points.data(), count});
+    count = 0;
+    return any;
+  };
+  for (const std::uint32_t id : samples) {
+    const InteriorSample& sample = pair_->samples()[id];
+    const std::optional<Vec3> there = position_if_near(sample);
+    if (!there) continue;
+    if (count > 0 && (count == points.size() || sample.obstacle != obstacle) && any_inside()) return true;
+    obstacle = sample.obstacle;
+    points[count++] = *there;
+  }
+  return count > 0 && any_inside();
 }
 
 }  // namespace dismantle::immobility

@@ -12,6 +12,13 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
+/// Each triangle costs a few operations; with more, the hierarchy of the whole solid is faster.
+constexpr std::size_t kMostFacets = 48;
+
+/// Six times the volume of a tetrahedron, as a share of the product of its edges. Below this, rounding decides the
+/// sign.
+constexpr double kTooFlat = 0.1 * kRounding;
+
 }  // namespace
 
 const Occupancy::Mixed Occupancy::in_, Occupancy::out_;
@@ -42,32 +49,42 @@ auto Occupancy::classify(const Vec3& center) const -> State {
   Aabb box;
   box.extend(center);
   box.inflate(0.5 * cell_ + rounding_);
-  surface_->overlapping(box, [&](std::uint32_t t) { mixed->triangles.push_back(t); });
+  std::vector<std::uint32_t> triangles;
+  surface_->overlapping(box, [&](std::uint32_t t) { triangles.push_back(t); });
+  mixed->is_dense = triangles.size() > kMostFacets;
+  if (!mixed->is_dense)
+    for (const std::uint32_t t : triangles) mixed->facets.push_back(facet_of(t, center));
   return mixed.release();
+}
+
+auto Occupancy::facet_of(std::uint32_t triangle, const Vec3& center) const -> Facet {
+  const auto& corners = surface_->corners(triangle);
+  const Vec3 a = corners[0] - center, b = corners[1] - center, c = corners[2] - center;
+  Facet facet;
+  facet.normal = (b - a).cross(c - a);
+  facet.height = -facet.normal.dot(a);
+  facet.flat = kTooFlat * (b - a).norm() * (c - a).norm();  // of the edges: the normal of a sliver is mostly rounding
+  facet.reach = a.norm();
+  facet.slack = kTooFlat * std::max({a.norm() * b.norm(), b.norm() * c.norm(), c.norm() * a.norm()});
+  facet.sides = {a.cross(b), b.cross(c), c.cross(a)};
+  return facet;
 }
 
 /// The change of the winding number from the centre of a cell to a point of it: each triangle that the segment crosses
 /// counts with the sign of its side. Nothing: the segment may pass through an edge or a corner.
-std::optional<int> Occupancy::crossings(const Mixed& cell, const Vec3& to) const {
-  // Each triangle costs a few dozen operations; with more, the hierarchy of the whole solid is faster.
-  if (cell.triangles.size() > 48) return std::nullopt;
-  // Six times the volume of a tetrahedron, as a share of the product of its edges. Below this, rounding decides the
-  // sign.
-  constexpr double kTooFlat = 0.1 * kRounding;
+std::optional<int> Occupancy::crossings(const Mixed& cell, const Vec3& to) {
+  if (cell.is_dense) return std::nullopt;
   const Vec3 displacement = to - cell.center;
+  const double length = displacement.norm();
   int sum = 0;
-  for (const std::uint32_t t : cell.triangles) {
-    const auto& corners = surface_->corners(t);
-    const Vec3 a = corners[0] - cell.center, b = corners[1] - cell.center, c = corners[2] - cell.center;
-    const Vec3 normal = (b - a).cross(c - a);
-    const double from_height = -normal.dot(a), to_height = normal.dot(displacement) + from_height;
-    // Relative to the edges, since the normal of a sliver is mostly rounding.
-    const double flat = kTooFlat * (b - a).norm() * (c - a).norm() * (a.norm() + displacement.norm());
+  for (const Facet& facet : cell.facets) {
+    const double from_height = facet.height, to_height = facet.normal.dot(displacement) + from_height;
+    const double flat = facet.flat * (facet.reach + length);
     // Both ends are certainly on one side.
     if ((from_height > flat && to_height > flat) || (from_height < -flat && to_height < -flat)) continue;
-    const double u = displacement.dot(a.cross(b)), v = displacement.dot(b.cross(c)), w = displacement.dot(c.cross(a));
-    const double slack =
-        kTooFlat * displacement.norm() * std::max({a.norm() * b.norm(), b.norm() * c.norm(), c.norm() * a.norm()});
+    const double u = displacement.dot(facet.sides[0]), v = displacement.dot(facet.sides[1]),
+                 w = displacement.dot(facet.sides[2]);
+    const double slack = facet.slack * length;
     // The line certainly misses the triangle.
     if ((u > slack || v > slack || w > slack) && (u < -slack || v < -slack || w < -slack)) continue;
     if (std::min({std::abs(u), std::abs(v), std::abs(w)}) <= slack ||
@@ -78,28 +95,57 @@ std::optional<int> Occupancy::crossings(const Mixed& cell, const Vec3& to) const
   return sum;
 }
 
-bool Occupancy::inside(const Vec3& local) const {
-  if (!box_.contains(local)) return false;
-  std::size_t index = 0;
-  Vec3 center;
+auto Occupancy::place_of(const Vec3& local) const -> Place {
+  Place place;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto n = static_cast<Eigen::Index>(k);
     const std::size_t i = std::min(static_cast<std::size_t>((local[n] - box_.lo[n]) / cell_), count_[k] - 1);
-    index = index * count_[k] + i;
-    center[n] = box_.lo[n] + (static_cast<double>(i) + 0.5) * cell_;
+    place.index = place.index * count_[k] + i;
+    place.center[n] = box_.lo[n] + (static_cast<double>(i) + 0.5) * cell_;
   }
-  State state = cells_[index].load(std::memory_order_acquire);
-  if (state == nullptr) {
-    State found = classify(center);
-    if (cells_[index].compare_exchange_strong(state, found, std::memory_order_acq_rel)) {
-      state = found;
-    } else if (found != &in_ && found != &out_) {
-      delete found;  // another thread stored the same answer first
-    }
-  }
+  return place;
+}
+
+auto Occupancy::state_at(const Place& place) const -> State {
+  State state = cells_[place.index].load(std::memory_order_acquire);
+  if (state != nullptr) return state;
+  State found = classify(place.center);
+  if (cells_[place.index].compare_exchange_strong(state, found, std::memory_order_acq_rel)) return found;
+  if (found != &in_ && found != &out_) delete found;  // another thread stored the same answer first
+  return state;
+}
+
+bool Occupancy::inside(const Vec3& local, State state) const {
   if (state == &in_ || state == &out_) return state == &in_;
   if (const auto change = crossings(*state, local)) return state->winding + *change > 0;
   return surface_->inside(local);
+}
+
+bool Occupancy::inside(const Vec3& local) const {
+  return box_.contains(local) && inside(local, state_at(place_of(local)));
+}
+
+bool Occupancy::any_inside(std::span<const Vec3> local) const {
+  constexpr std::size_t kMost = 32;
+  std::array<Vec3, kMost> points;
+  std::array<Place, kMost> places;
+  std::array<State, kMost> states;
+  for (std::size_t next = 0; next < local.size();) {
+    std::size_t count = 0;
+    for (; next < local.size() && count < kMost; ++next) {
+      if (!box_.contains(local[next])) continue;
+      points[count] = local[next];
+      places[count] = place_of(local[next]);
+      __builtin_prefetch(&cells_[places[count].index]);
+      ++count;
+    }
+    for (std::size_t i = 0; i < count; ++i) __builtin_prefetch(states[i] = state_at(places[i]));
+    for (std::size_t i = 0; i < count; ++i)
+      if (states[i] != &in_ && states[i] != &out_) __builtin_prefetch(states[i]->facets.data());
+    for (std::size_t i = 0; i < count; ++i)
+      if (inside(points[i], states[i])) return true;
+  }
+  return false;
 }
 
 }  // namespace dismantle::immobility

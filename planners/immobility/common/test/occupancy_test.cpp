@@ -18,6 +18,7 @@ TEST(Occupancy, SaysOfEveryPointWhatTheSurfaceSays) {
     for (const double cell : {0.04, 0.15, 0.5}) {
       const immobility::Occupancy occupancy(surface, box, cell);
       int in = 0;
+      std::vector<Eigen::Vector3d> points;  // of which only the last may be inside
       for (int i = 0; i < 4000; ++i) {
         Eigen::Vector3d p;
         for (int d = 0; d < 3; ++d) p[d] = rng.uniform(box.lo[d] - 0.1, box.hi[d] + 0.1);
@@ -27,6 +28,11 @@ TEST(Occupancy, SaysOfEveryPointWhatTheSurfaceSays) {
         }
         ASSERT_EQ(occupancy.inside(p), surface.inside(p)) << p.transpose() << ", cells of " << cell;
         in += surface.inside(p) ? 1 : 0;
+        points.push_back(p);
+        if (surface.inside(p) || points.size() == 100) {
+          ASSERT_EQ(occupancy.any_inside(points), surface.inside(p)) << points.size() << " points";
+          points.clear();
+        }
       }
       EXPECT_GT(in, 200);
     }

@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "dismantle/geometry/solid.h"
@@ -71,12 +73,17 @@ class RelativePose {
   /// Position of the sample, in the frame of its obstacle.
   Eigen::Vector3d position(const InteriorSample& sample) const;
   bool inside(const InteriorSample& sample) const;
-  /// As inside(), but skips the test if the sample cannot have moved as far as its obstacle.
-  bool blocked_by(const InteriorSample& sample) const {
-    return sample.clearance <= max_displacement_ && inside(sample);
-  }
+  /// As inside(), but skips the test if the sample has not moved as far as its obstacle.
+  bool blocked_by(const InteriorSample& sample) const;
+  /// blocked_by() of any of these samples. Fast if successive ones have the same obstacle and are near each other.
+  bool blocked_by_any(std::span<const std::uint32_t> samples) const;
 
  private:
+  Eigen::Vector3d moved(const InteriorSample& sample) const;
+  Eigen::Vector3d in_frame_of_obstacle(const InteriorSample& sample, const Eigen::Vector3d& moved) const;
+  /// Position of a sample that has moved as far as its obstacle, in the frame of that; else nullopt.
+  std::optional<Eigen::Vector3d> position_if_near(const InteriorSample& sample) const;
+
   const SampledPair* pair_;
   Eigen::Matrix3d rotation_;
   Eigen::Vector3d shift_;
