@@ -195,9 +195,11 @@ std::optional<Penetration> wall_depth(const Solid& a, const Pose& place_a, const
   Vec3 meets = Vec3::Zero();
   const auto apart = [&](double depth) { return geometry::apart_by(a, b, a_in_b, depth, meets); };
   if (apart(tolerance)) return Penetration{};
-  const double most = std::min(a.box.size().norm(), b.box.size().norm());
-  double low = tolerance, high = 2 * tolerance;
-  for (; !apart(high); high *= 2) {
+  // A copy that is displaced further than needed meets the next wall, so larger displacements may fail again.
+  constexpr double kStep = 1.19;
+  const double most = 0.5 * std::max(a.box.size().norm(), b.box.size().norm());
+  double low = tolerance, high = kStep * tolerance;
+  for (; !apart(high); high *= kStep) {
     if (high > most || context.should_stop()) return std::nullopt;
     low = high;
   }

@@ -1,6 +1,7 @@
 // The verifier on parts whose surface is open: what is a wall, what is an opening, how deep a pair is in each other.
 #include <gtest/gtest.h>
 
+#include "dismantle/testing/held_shapes.h"
 #include "dismantle/testing/shapes.h"
 #include "dismantle/verification/verifier.h"
 
@@ -81,6 +82,34 @@ TEST(OpenParts, AreAsDeepAsTheSmallestDisplacementThatFreesThem) {
     EXPECT_FALSE(passes(verifier, {{0, 0, -6}})) << depth;
     EXPECT_FALSE(passes(verifier, {{6, 0, 0}})) << depth;
   }
+}
+
+/// A shaft along z with three flanges: the upper end of the middle one is at `depth`.
+Mesh flanges(double depth, double thickness, double gap) {
+  std::vector<std::pair<double, double>> outline{{0.2, -4}, {1, -4}};
+  for (const int k : {-1, 0, 1}) {
+    const double top = depth + k * (thickness + gap);
+    for (const auto& [r, z] : {std::pair{1.0, top - thickness}, {2.0, top - thickness}, {2.0, top}, {1.0, top}})
+      outline.emplace_back(r, z);
+  }
+  outline.insert(outline.end(), {{1, 4}, {0.2, 4}});
+  return shapes::lathe(outline, 24);
+}
+
+TEST(OpenParts, AreNoDeeperThanTheNearestOfManyWalls) {
+  // The sheet cuts into a flange. Displaced by more than the gap, it meets the next one; displaced by more than half of
+  // their thickness, the flanges are inside out.
+  const double depth = 0.055, tolerance = 1e-4;
+  const Mesh cut = shapes::moved(sheet(0.7, 0), shapes::shift({2.2, 0, 0}));
+  const double found = penetration_depth(cut, Pose{}, flanges(depth, 0.12, 0.008), Pose{}, tolerance);
+  EXPECT_GE(found, depth - tolerance);
+  EXPECT_LE(found, depth + 2 * tolerance);
+}
+
+TEST(OpenParts, AreNoDeeperThanTheyAreLarge) {
+  // A rod through both sheets of a part: no displacement of either suffices, however long.
+  const Mesh sheets = shapes::joined(sheet(1, 0.1), sheet(1, 0.2)), rod = shapes::box({-0.1, -0.2, -3}, {0.1, 0.2, 3});
+  EXPECT_LE(penetration_depth(rod, Pose{}, sheets, Pose{}, 1e-4), 0.2);
 }
 
 TEST(OpenParts, AThinPartThatTouchesAWallIsNotSaidToCut) {

@@ -83,6 +83,12 @@ std::optional<std::uint32_t> find_sides(const Solid& a, const Solid& b, const Pl
   return std::nullopt;
 }
 
+/// Beyond this, a displacement says nothing: a closed part is turned inside out by more than half of its least extent,
+/// and a sheet leaves another part on its shorter way by half of the largest.
+static double longest_displacement(const Solid& moved, const Solid& other) {
+  return 0.5 * (moved.open ? other.box.size().norm() : moved.box.size().minCoeff());
+}
+
 bool apart_by(const Solid& a, const Solid& b, const Pose& a_in_b, double depth, Eigen::Vector3d& meets) {
   const auto meets_at = [&](const Solid& x, const Solid& y, const Placement& place) {
     const Displaced displaced = [&](std::uint32_t t, double side, double share) {
@@ -94,10 +100,21 @@ bool apart_by(const Solid& a, const Solid& b, const Pose& a_in_b, double depth, 
     return find_sides(x, y, place, displaced, depth, Lean::back, sides);
   };
   const Placement forward(a_in_b);
-  const auto met = meets_at(a, b, forward);
-  if (!met || !meets_at(b, a, Placement(a_in_b.inverse()))) return true;
-  const Corners& c = a.bvh.corners(*met);
-  meets = forward * Eigen::Vector3d((c[0] + c[1] + c[2]) / 3);
+  const auto is_apart = [&](const Solid& x, const Solid& y, const Placement& place, std::optional<std::uint32_t>& met) {
+    if (depth > longest_displacement(x, y)) return false;
+    met = meets_at(x, y, place);
+    return !met;
+  };
+  std::optional<std::uint32_t> first, second;
+  if (is_apart(a, b, forward, first) || is_apart(b, a, Placement(a_in_b.inverse()), second)) return true;
+  const auto center = [](const Solid& of, std::uint32_t t) {
+    const Corners& c = of.bvh.corners(t);
+    return Eigen::Vector3d((c[0] + c[1] + c[2]) / 3);
+  };
+  if (first)
+    meets = forward * center(a, *first);
+  else if (second)
+    meets = center(b, *second);
   return false;
 }
 
@@ -113,8 +130,8 @@ bool DirectedCheck::rests_at(double time) {
   return fail_at_wall(patch_of(*met, 1), time);
 }
 
-/// The displaced copy meets a triangle. Where the part is so thin that the copy is displaced by less than the limit, that
-/// proves no cut.
+/// The displaced copy meets a triangle. Where the part is so thin that the copy is displaced by less than the limit,
+/// that proves no cut.
 bool DirectedCheck::fail_at_wall(const Patch& patch, double time) {
   const double reached = allowed(patch);
   const Answer answer = reached < limits_.most() ? Answer::uncertain : Answer::violated;
@@ -139,8 +156,7 @@ bool DirectedCheck::settle_wall(const Interval& i, std::uint32_t id, List& later
   const Placement mid(motion_.at(s));
   const Corners there = placed(mid, moved), begin = placed(i.at0, moved), end = placed(i.at1, moved);
   if (!budget_.spend_test()) return fail(Answer::exhausted, patch.center(), 0, patch.triangle, i.s0);
-  if (Sweep(there, there, 0).test(b_.bvh) == SweepResult::unclear)
-    return fail_at_wall(patch, s);
+  if (Sweep(there, there, 0).test(b_.bvh) == SweepResult::unclear) return fail_at_wall(patch, s);
   double travel = 0;
   for (std::size_t k = 0; k < 3; ++k) travel = std::max(travel, (end[k] - begin[k]).norm());
   // Far below the gap of parts that touch.

@@ -30,7 +30,7 @@ std::optional<std::uint32_t> find_sides(const Solid& a, const Solid& b, const Pl
                                         const Displaced& displaced, double reach, Lean lean, Sides& sides);
 
 /// True if one copy of `a` or of `b`, displaced by no more than `depth` anywhere, is off the other one. Else `meets` is
-/// a point of `a`, in the frame of `b`, where they meet.
+/// a point where they meet, in the frame of `b`; unchanged if `depth` is beyond the size of the parts.
 bool apart_by(const Solid& a, const Solid& b, const Pose& a_in_b, double depth, Eigen::Vector3d& meets);
 
 }  // namespace dismantle::geometry
