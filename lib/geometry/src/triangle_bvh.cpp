@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "dismantle/geometry/numerics.h"
-#include "solid_angles.h"
+#include "dismantle/geometry/solid_angles.h"
 
 namespace dismantle {
 namespace {

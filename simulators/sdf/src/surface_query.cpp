@@ -41,7 +41,7 @@ SurfaceQuery::SurfaceQuery(const Solid& solid, double near, const geometry::Poll
     corners_[s] = {a, b - a, c - a};
     slabs_.emplace_back(a, b - a, c - a, bounded_within_);
   }
-  if (solid.open) walls_ = std::make_unique<TriangleBvh>(solid.mesh, poll, Surface::open);
+  if (solid.open) walls_ = std::make_unique<WallSides>(solid.mesh, poll);
   find_faces(solid);
   poll.before(n);
   find_convex_features(solid);

@@ -10,12 +10,15 @@
 #include <span>
 #include <vector>
 
+#include "dismantle/aabb.h"
 #include "dismantle/geometry/numerics.h"
-#include "dismantle/geometry/triangle_bvh.h"
+#include "dismantle/geometry/poll.h"
+#include "dismantle/mesh.h"
 #include "dismantle/sdf/candidate_cells.h"
 #include "dismantle/sdf/closest_on_triangle.h"
 #include "dismantle/sdf/solid.h"
 #include "dismantle/sdf/triangle_slabs.h"
+#include "dismantle/sdf/wall_sides.h"
 
 namespace dismantle::sdf {
 
@@ -124,7 +127,7 @@ class SurfaceQuery {
   double flat_radius(const Eigen::Vector3d& p, const Sample& sample, const CandidateList& list,
                      const FlatnessWanted& wanted) const;
 
-  std::unique_ptr<const TriangleBvh> walls_;  // of an open surface, which the nearest feature does not have two sides of
+  std::unique_ptr<const WallSides> walls_;  // of an open surface, which the nearest feature does not have two sides of
   double near_;
   double coplanar_ = 0;  // distance from a plane within which a face of a single precision file is flat
   std::unique_ptr<CandidateCells> cells_;
