@@ -80,6 +80,29 @@ struct MotionDepthMeter::Impl {
       worst = here;
   }
 
+  /// By the check of the verifier, with a share of its budget: when something may be deeper than `known` plus
+  /// `resolution`; negative if the check tells nothing, nullopt if nothing is deeper.
+  std::optional<double> first_deeper(PartId part, const PairMotion& motion, const PlacedPart& other, double known,
+                                     double resolution, const RunContext& context) const {
+    const VerifyBudget& counts = verifier.options().budget;
+    const geometry::Limits limits{known + 0.5 * resolution, 0.5 * resolution, nullptr,
+                                  verifier.options().max_penetration};
+    for (const geometry::Solid& x : verifier.solids(part))
+      for (const geometry::Solid& y : verifier.solids(other.part)) {
+        if (x.open || y.open) return -1;  // the check proves another statement about them
+        const SolidMotion solids(motion.poses(), {other.pose}, x, y, limits.most());
+        if (!solids.forward.swept_box().overlaps(y.box)) continue;
+        const auto share = [&](std::uint64_t count) {
+          return static_cast<std::uint64_t>(counts.trial_share * static_cast<double>(count));
+        };
+        geometry::Budget budget{share(counts.tests), share(counts.patches), 0, &context, counts.resolution};
+        const geometry::Finding found = geometry::check_pair(x, y, solids.forward, solids.backward(), limits, budget);
+        if (found.answer == geometry::Answer::certified) continue;
+        return found.answer == geometry::Answer::violated ? found.time : -1;
+      }
+    return std::nullopt;
+  }
+
   /// Raises `worst`. Returns false when the result is not proved.
   bool pair(PartId part, const PairMotion& motion, const PlacedPart& other, const MotionDepthOptions& options,
             const RunContext& context, double allowed, std::optional<MotionDepth>& worst) {
@@ -141,9 +164,20 @@ struct MotionDepthMeter::Impl {
       if (context.should_stop() || ++measured > options.most_poses) return false;
       if (worst->excess() > options.stop_above) return false;
     }
+    // Where a part cuts in alike for a while, many poses have to be measured; a proof takes as long as some of them.
+    std::uint64_t proof_after = 8;
     while (!open.empty()) {
       const Interval top = open.top();
       if (is_settled(top.bound)) return true;
+      if (measured >= proof_after && !context.should_stop()) {
+        proof_after = 2 * measured;
+        const double before = known();
+        const std::optional<double> deeper =
+            first_deeper(part, motion, other, before, resolution(options, worst), context);
+        if (!deeper) return true;
+        if (*deeper >= 0) measure(*deeper), ++measured;
+        if (known() > before) proof_after = measured;
+      }
       if (worst->excess() > options.stop_above || context.should_stop() || ++measured > options.most_poses)
         return false;
       open.pop();

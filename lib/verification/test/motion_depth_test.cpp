@@ -59,6 +59,16 @@ TEST(MotionDepth, TheOverlapWhenAssembledIsNotExcess) {
   EXPECT_LT(found.excess(), 0.02);
 }
 
+TEST(MotionDepth, OfALongEqualCutIsProvedWithFewPoses) {
+  // A slide 0.05 too wide for the rail on which it moves by 20: one pose in 0.01 would have to be measured.
+  const Assembly assembly =
+      shapes::assembly_of({shapes::box({0, -0.5, 0.95}, {1, 0.5, 2}), shapes::box({2, -1, -1}, {22, 1, 1})});
+  const MotionDepth found = deepest(assembly, {{1, Pose{}}}, {{Pose{}}, {shift({24, 0, 0})}},
+                                    {.absolute = 0.005, .relative = 0.01, .most_poses = 40});
+  EXPECT_TRUE(found.proved);
+  EXPECT_NEAR(found.depth, 0.05, 0.005);
+}
+
 TEST(MotionDepth, ABoundThatIsKnownChangesNothingButTheEffort) {
   Rng rng(5);
   for (int i = 0; i < 12; ++i) {
