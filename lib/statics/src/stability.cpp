@@ -320,7 +320,10 @@ StabilityReport judge_assembly(const AssemblyPile& assembly, const Stop& stop, d
   if (std::any_of(report.at_tolerances.begin(), report.at_tolerances.end(), [&](Verdict v) { return v != verdict; }))
     report.judgement.verdict = Verdict::uncertain;
   if (report.judgement.verdict == Verdict::uncertain) {
-    report.variants = flips_between(std::move(variants), stop);
+    const Budget budget(work);
+    const Stop enough = [&] { return budget.spent() || (stop && stop()); };
+    report.variants = flips_between(std::move(variants), enough);
+    if (report.variants.empty() && budget.spent()) report.not_computed.emplace_back("what the verdict changes with");
   } else {
     variants.erase(variants.begin() + 1);
     report.variants = std::move(variants);
