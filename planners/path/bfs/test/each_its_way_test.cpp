@@ -77,6 +77,19 @@ TEST(EachItsWay, AnyOfThoseThatMayLeaveWillDo) {
   EXPECT_TRUE(maze.exit.contains(run.result.path()->poses().back()[0].t));
 }
 
+TEST(EachItsWay, ARunEndsWhereAllHaveLeftTogether) {
+  for (const char* planner : {"bfs", "contact_search"}) {
+    MazeRun run;
+    Maze maze = geared(1.0);
+    maze.hold_each_other = true;
+    go(run, maze, {0, 1}, planner);
+    EXPECT_EQ(run.result.outcome(), Outcome::depth_limit) << planner;
+    ASSERT_EQ(run.result.best_pose.size(), 2u);
+    EXPECT_GT(run.result.best_pose[0].t.norm(), 4.5) << planner;
+    EXPECT_LT(run.result.best_pose[0].t.norm(), 6) << planner << ": the tunnel is 30 long";
+  }
+}
+
 TEST(EachItsWay, TwoAreDrivenAtOnceWhereOneIsNotEnough) {
   for (const char* planner : {"bfs", "contact_search"}) {
     MazeRun run;

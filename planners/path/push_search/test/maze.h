@@ -30,6 +30,7 @@ struct Maze {
   /// Couples points: gets the state after a step, and may move the points that have no wrench. False: no point moves.
   std::function<bool(State&, const Action&)> link{};
   std::map<PartId, Aabb> gates{};  ///< closed while this part is fixed
+  bool hold_each_other = false;    ///< no point is ever apart from the others
   bool inside(const Vector3d& p, bool learned, const Scene& scene) const {
     if (gate_at(p, scene)) return false;
     for (const auto& box : learned && !free_after_learning.empty() ? free_after_learning : free)
@@ -120,7 +121,7 @@ class MazeWorld final : public World {
     return true;
   }
   bool body_separated(const State& state, std::size_t body) override {
-    return !maze_.exit.contains(state.bodies[body].pose.t);
+    return !maze_.hold_each_other && !maze_.exit.contains(state.bodies[body].pose.t);
   }
   void add_contact_sample(PartId, PartId, const Vector3d&) override {
     ++notes_.learned;
