@@ -67,8 +67,8 @@ RunEnd Search::follow(std::int32_t from, const Action& action, Stage stage, unsi
     const bool coupled = rotates && problem_->several_moved(was, state);
     const double angle = angle_between(was.bodies[0].pose.q, state.bodies[0].pose.q);
     if (report.stalled || (rotates && recurrence.at_known(state, angle, coupled))) break;
-    // All have left together, held by each other alone: the run would never end.
-    if (problem_->independent() && problem_->world->separated(state)) break;
+    // All have left together, held by each other alone: the run would never end, nor would those from here.
+    if (problem_->independent() && problem_->world->separated(state)) return RunEnd::blocked;
     if ((leans || coupled) && tree_.seen().has_similar(state)) continue;
     const bool keeps_middles = problem_->tactics.intermediate > 0;
     if (rotates) {
