@@ -156,19 +156,19 @@ class Overlap(CliTest):
         self.assertEqual(plan["status"], "forced")
         self.assertFalse([p for p in plan["assembly"]["parts"] if "flexible" in p])
 
-    def test_a_tyre_of_rubber_needs_no_force(self):
-        self.write("model/library/parts/tyre.dat", "0 Tyre\n0 !LDRAW_ORG Part\n" + revolved(
+    def test_a_band_of_rubber_needs_no_force(self):
+        self.write("model/library/parts/band.dat", "0 Band\n0 !LDRAW_ORG Part\n" + revolved(
             [(-8, 10), (8, 10), (8, 20), (-8, 20)], closed=True))
         self.write("model/library/parts/wheel.dat", "0 Wheel\n0 !LDRAW_ORG Part\n" + revolved(
             [(-12, 13), (-8.1, 13), (-8.1, 9.9), (8.1, 9.9), (8.1, 13), (12, 13)], closed=False))
         self.write("model/library/LDConfig.ldr", "0 !COLOUR Black CODE 0 VALUE #1B2A34 EDGE #808080\n"
                    "0 !COLOUR Rubber_Black CODE 256 VALUE #1B2A34 EDGE #808080 RUBBER\n")
         for colour in (0, 256):
-            self.write("model/car.ldr", "0 Car\n1 %d 0 0 0 1 0 0 0 1 0 0 0 1 tyre.dat\n"
+            self.write("model/car.ldr", "0 Car\n1 %d 0 0 0 1 0 0 0 1 0 0 0 1 band.dat\n"
                        "1 0 0 0 0 1 0 0 0 1 0 0 0 1 wheel.dat\n" % colour)
             check = self.run_program("check", "model/car.ldr", "--format", "json", "-q")
             found = json.loads(check.stdout.splitlines()[-1])["findings"]
-            self.assertEqual([f["parts"] for f in found if f["kind"] == "flexible"], [["Tyre"]] if colour else [])
+            self.assertEqual([f["parts"] for f in found if f["kind"] == "flexible"], [["Band"]] if colour else [])
         plan = self.plan("model/car.ldr", status=0)
         self.assertEqual(plan["status"], "complete")
         self.assertEqual([p.get("flexible") for p in plan["assembly"]["parts"]], ["material", None])
