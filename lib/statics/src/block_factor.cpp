@@ -196,20 +196,15 @@ bool BlockFactor::eliminate(Front& front) const {
   return true;
 }
 
-bool BlockFactor::factorize_symmetric(const BlockMatrix& matrix) {
-  symmetric_ = true;
-  for (Front& front : fronts_) {
-    assemble(front, matrix, true);
-    if (!eliminate_symmetric(front)) return false;
-  }
-  return true;
-}
+bool BlockFactor::factorize_symmetric(const BlockMatrix& matrix) { return factorize(matrix, true); }
 
-bool BlockFactor::factorize(const BlockMatrix& matrix) {
-  symmetric_ = false;
+bool BlockFactor::factorize(const BlockMatrix& matrix) { return factorize(matrix, false); }
+
+bool BlockFactor::factorize(const BlockMatrix& matrix, bool symmetric) {
+  symmetric_ = symmetric;
   for (Front& front : fronts_) {
-    assemble(front, matrix, false);
-    if (!eliminate(front)) return false;
+    assemble(front, matrix, symmetric);
+    if (!(symmetric ? eliminate_symmetric(front) : eliminate(front))) return false;
   }
   return true;
 }

@@ -51,6 +51,7 @@ class BlockFactor {
     std::size_t pair, row;
     bool swapped;  // it is (b, a)
   };
+  bool factorize(const BlockMatrix& matrix, bool symmetric);
   void find_fronts(const BlockMatrix& pattern);
   std::size_t place_in(const Front& front, std::size_t row) const;
   void assemble(Front& front, const BlockMatrix& matrix, bool symmetric);

@@ -7,6 +7,7 @@
 
 #include "dismantle/statics/balance.h"
 #include "dismantle/statics/certificates.h"
+#include "weight_work.h"
 
 namespace dismantle::statics {
 namespace {
@@ -16,14 +17,6 @@ using Stop = std::function<bool()>;
 
 constexpr double kNear = 3e-4;  // of a value: that near is found
 constexpr int kCuts = 50;
-
-/// Work of the weights in a motion when gravity points to `down`.
-double work(const Pile& pile, const Motions& motion, const Vec3& down) {
-  double sum = 0;
-  for (std::size_t i = 0; i < motion.size(); ++i)
-    if (!pile.bodies[i].fixed) sum += pile.bodies[i].weight * motion[i].v.dot(down);
-  return sum;
-}
 
 /// Answer about one value of a load: forces balance it, or a motion shows that none do from a smaller value on.
 struct Probe {
@@ -133,7 +126,7 @@ class PushSearch {
 
   void add_cut(const Motions& motion) {
     // The weights resist the motion by -weights, the push drives it by its force times forward.
-    double weights = work(pile_, motion, pile_.down);
+    double weights = weight_work(pile_, motion, pile_.down);
     for (const Push& p : pile_.pushes) weights += motion[p.body].at(p.at - pile_.bodies[p.body].center).dot(p.force);
     const Vec2 forward(motion[body_].v.dot(u_), motion[body_].v.dot(v_));
     cuts_.push_back({forward, std::max(0.0, -weights), motion});

@@ -22,8 +22,8 @@ using Stop = std::function<bool()>;
 
 constexpr double kFrictions[] = {0.2, 0.3, 0.4, 0.5, 0.6};
 /// Shares of the budget that is left: each of the frictions, each of the tilts, and the least holds. Of the whole:
-/// pushes.
-constexpr double kForFriction = 0.1, kForTilt = 0.15, kForHolds = 0.7, kForPushes = 0.1;
+/// pushes, and what an uncertain verdict changes with.
+constexpr double kForFriction = 0.1, kForTilt = 0.15, kForHolds = 0.7, kForPushes = 0.1, kForFlips = 0.5;
 
 /// Contacts of all pairs whose boxes are near, in the input's units.
 void add_contacts(const Assembly& assembly, const Bonds& bonds, const std::vector<Shape>& shapes,
@@ -316,18 +316,19 @@ StabilityReport judge_assembly(const AssemblyPile& assembly, const Stop& stop, d
     report.at_tolerances.push_back(v.judgement.verdict);
     variants.push_back(std::move(v));
   }
-  Answers(assembly, report, verdicts, work, stop).find();
-  if (std::any_of(report.at_tolerances.begin(), report.at_tolerances.end(), [&](Verdict v) { return v != verdict; }))
-    report.judgement.verdict = Verdict::uncertain;
-  if (report.judgement.verdict == Verdict::uncertain) {
-    const Budget budget(work);
-    const Stop enough = [&] { return budget.spent() || (stop && stop()); };
+  const Budget budget(work);
+  const bool differs = std::ranges::any_of(report.at_tolerances, [&](Verdict v) { return v != verdict; });
+  if (differs || verdict == Verdict::uncertain) {
+    const Budget part(kForFlips * work);
+    const Stop enough = [&] { return part.spent() || (stop && stop()); };
     report.variants = flips_between(std::move(variants), enough);
-    if (report.variants.empty() && budget.spent()) report.not_computed.emplace_back("what the verdict changes with");
+    if (report.variants.empty() && part.spent()) report.not_computed.emplace_back("what the verdict changes with");
   } else {
     variants.erase(variants.begin() + 1);
     report.variants = std::move(variants);
   }
+  Answers(assembly, report, verdicts, budget.left(), stop).find();
+  if (differs) report.judgement.verdict = Verdict::uncertain;
   return report;
 }
 

@@ -6,6 +6,7 @@
 #include "dismantle/statics/balance.h"
 #include "dismantle/statics/certificates.h"
 #include "dismantle/statics/limits.h"
+#include "weight_work.h"
 
 namespace dismantle::statics {
 namespace {
@@ -20,12 +21,7 @@ constexpr double kFine = 5e-3, kFineAngle = 1e-3, kFinest = 1e-5;
 
 /// Angle at which a motion of falling begins when gravity turns about `axis`; none: at no angle.
 std::optional<double> begins_at(const Pile& pile, const Vec3& axis, const Motions& motion) {
-  const auto work = [&](const Vec3& down) {
-    double sum = 0;
-    for (std::size_t i = 0; i < motion.size(); ++i)
-      if (!pile.bodies[i].fixed) sum += pile.bodies[i].weight * motion[i].v.dot(down);
-    return sum;
-  };
+  const auto work = [&](const Vec3& down) { return weight_work(pile, motion, down); };
   // Work at the angle t: always + along * cos(t) + across * sin(t).
   const Vec3 always = axis.dot(pile.down) * axis;
   const double along = work(pile.down - always), across = work(-axis.cross(pile.down));

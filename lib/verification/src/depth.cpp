@@ -1,6 +1,7 @@
 // Penetration depth of two placed meshes by branch and bound over triangles. A patch is settled when a displacement
 // rule (patch.h) or the Lipschitz bound shows that it has nothing deeper than the deepest point found.
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <optional>
 #include <stdexcept>
@@ -195,11 +196,12 @@ std::optional<Penetration> wall_depth(const Solid& a, const Pose& place_a, const
   Vec3 meets = Vec3::Zero();
   const auto apart = [&](double depth) { return geometry::apart_by(a, b, a_in_b, depth, meets); };
   if (apart(tolerance)) return Penetration{};
-  // A copy that is displaced further than needed meets the next wall, so larger displacements may fail again.
-  constexpr double kStep = 1.19;
+  // A copy that is displaced further than needed meets the next wall, so larger displacements may fail again: four
+  // steps for each doubling.
+  const double step = std::exp2(0.25);
   const double most = 0.5 * std::max(a.box.size().norm(), b.box.size().norm());
-  double low = tolerance, high = kStep * tolerance;
-  for (; !apart(high); high *= kStep) {
+  double low = tolerance, high = step * tolerance;
+  for (; !apart(high); high *= step) {
     if (high > most || context.should_stop()) return std::nullopt;
     low = high;
   }

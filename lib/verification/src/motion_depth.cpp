@@ -80,16 +80,21 @@ struct MotionDepthMeter::Impl {
       worst = here;
   }
 
-  /// By the check of the verifier, with a share of its budget: when something may be deeper than `known` plus
-  /// `resolution`; negative if the check tells nothing, nullopt if nothing is deeper.
-  std::optional<double> first_deeper(PartId part, const PairMotion& motion, const PlacedPart& other, double known,
-                                     double resolution, const RunContext& context) const {
+  /// Whether something may be deeper than a bound, and when, if that is known.
+  struct Deeper {
+    bool may_be = false;
+    std::optional<double> time{};
+  };
+
+  /// Than `known` plus `resolution`, by the check of the verifier with a share of its budget.
+  Deeper deeper_than(PartId part, const PairMotion& motion, const PlacedPart& other, double known, double resolution,
+                     const RunContext& context) const {
     const VerifyBudget& counts = verifier.options().budget;
     const geometry::Limits limits{known + 0.5 * resolution, 0.5 * resolution, nullptr,
                                   verifier.options().max_penetration};
     for (const geometry::Solid& x : verifier.solids(part))
       for (const geometry::Solid& y : verifier.solids(other.part)) {
-        if (x.open || y.open) return -1;  // the check proves another statement about them
+        if (x.open || y.open) return {true};  // the check proves another statement about them
         const SolidMotion solids(motion.poses(), {other.pose}, x, y, limits.most());
         if (!solids.forward.swept_box().overlaps(y.box)) continue;
         const auto share = [&](std::uint64_t count) {
@@ -98,9 +103,9 @@ struct MotionDepthMeter::Impl {
         geometry::Budget budget{share(counts.tests), share(counts.patches), 0, &context, counts.resolution};
         const geometry::Finding found = geometry::check_pair(x, y, solids.forward, solids.backward(), limits, budget);
         if (found.answer == geometry::Answer::certified) continue;
-        return found.answer == geometry::Answer::violated ? found.time : -1;
+        return {true, found.answer == geometry::Answer::violated ? std::optional(found.time) : std::nullopt};
       }
-    return std::nullopt;
+    return {};
   }
 
   /// Raises `worst`. Returns false when the result is not proved.
@@ -172,10 +177,9 @@ struct MotionDepthMeter::Impl {
       if (measured >= proof_after && !context.should_stop()) {
         proof_after = 2 * measured;
         const double before = known();
-        const std::optional<double> deeper =
-            first_deeper(part, motion, other, before, resolution(options, worst), context);
-        if (!deeper) return true;
-        if (*deeper >= 0) measure(*deeper), ++measured;
+        const Deeper deeper = deeper_than(part, motion, other, before, resolution(options, worst), context);
+        if (!deeper.may_be) return true;
+        if (deeper.time) measure(*deeper.time), ++measured;
         if (known() > before) proof_after = measured;
       }
       if (worst->excess() > options.stop_above || context.should_stop() || ++measured > options.most_poses)

@@ -40,7 +40,7 @@ double Problem::displacement(const State& state) const {
   return independent() ? lengths[lengths.size() - 2] : lengths.back();
 }
 
-bool Problem::several_moved(const State& from, const State& to) const {
+bool Problem::moved_relatively(const State& from, const State& to) const {
   if (!independent()) return false;
   const double far = tactics.end_similarity * tactics.similarity_translation;
   const auto moved = [&](std::size_t i, const Pose& before, const Pose& after) {
@@ -62,7 +62,7 @@ void Problem::give_room(State& state) const {
   world->project_to_clearance(state, wanted > 0 ? wanted : std::numeric_limits<double>::infinity());
 }
 
-void Problem::part_contacts(State& state) const { world->project_to_clearance(state, query.tolerance); }
+void Problem::move_off_contacts(State& state) const { world->project_to_clearance(state, query.tolerance); }
 
 std::vector<Contact> Problem::contacts(const State& state) const {
   std::vector<Contact> contacts;

@@ -1,4 +1,5 @@
 // Runs from one state with one action.
+#include <algorithm>
 #include <cstdint>
 #include <numbers>
 #include <utility>
@@ -20,7 +21,7 @@ class Recurrence {
   Recurrence(const StateTree& tree, const State& start, bool leans)
       : tree_(tree), start_(start), leans_(leans), first_(tree.size()), left_behind_(first_) {}
 
-  /// The state after a planning time step, in which the first part has rotated by `angle`. `coupled`: several parts
+  /// The state after a planning time step, in which a part has rotated by `angle` at most. `coupled`: parts
   /// that move independently have moved. Such a motion may be the only way out, and it begins among states to which
   /// single parts have moved in their play: it goes on past those, for two rotations at most, until a state of another
   /// run is nearly equal.
@@ -64,8 +65,10 @@ RunEnd Search::follow(std::int32_t from, const Action& action, Stage stage, unsi
     if (!report.finite) return RunEnd::blocked;
     if (motion.size() > before && problem_->out(state))
       return verify(tree_.add(last, depth, state, std::move(motion), false), from, result);
-    const bool coupled = rotates && problem_->several_moved(was, state);
-    const double angle = angle_between(was.bodies[0].pose.q, state.bodies[0].pose.q);
+    const bool coupled = rotates && problem_->moved_relatively(was, state);
+    double angle = 0;
+    for (std::size_t i = 0; i < state.bodies.size(); ++i)
+      angle = std::max(angle, angle_between(was.bodies[i].pose.q, state.bodies[i].pose.q));
     if (report.stalled || (rotates && recurrence.at_known(state, angle, coupled))) break;
     // All have left together, held by each other alone: the run would never end, nor would those from here.
     if (problem_->independent() && problem_->world->separated(state)) return RunEnd::blocked;

@@ -28,17 +28,17 @@ Path Verification::with_room(Path path, const Work& work) const {
   for (std::size_t k = 1; k + 1 < path.size() && !work.used_up(); ++k) {
     State state = problem_.world->initial_state();
     for (std::size_t i = 0; i < bodies.size(); ++i) state.bodies[i].pose = path[k][i];
-    problem_.part_contacts(state);
+    problem_.move_off_contacts(state);
     for (std::size_t i = 0; i < bodies.size(); ++i) path[k][i] = state.bodies[i].pose;
   }
   return path;
 }
 
-/// Forms of a path on which parts drive each other, and so stay in contact all the way. The first is the path itself.
-/// Each refusal tells the world of a contact that it did not see, and the next form keeps off that, too, also at the
-/// instant of the refusal. Ends when a form is refused again as it was, or after `max_refusals` forms.
-std::optional<Path> Verification::form_of(const Path& whole, std::size_t k, const Work& work, Refused& last) const {
-  if (k == 0) return path::thin(whole, problem_.bodies, problem_.thinning());
+/// The k-th form, from 1 on, of a path on which parts drive each other, and so stay in contact all the way. Each
+/// refusal tells the world of a contact that it did not see, and the next form keeps off that, too, also at the instant
+/// of the refusal. Ends when a form is refused again as it was, or after `max_refusals` forms.
+std::optional<Path> Verification::next_form(const Path& whole, std::size_t k, const Work& work,
+                                            const Refused& last) const {
   if (!problem_.independent() || k > static_cast<std::size_t>(problem_.tactics.max_refusals)) return std::nullopt;
   if (k == 1) return with_room(path::thin(whole, problem_.bodies, problem_.touch_distance()), work);
   const auto after = static_cast<std::ptrdiff_t>(last.check.instant) + 1;
@@ -58,7 +58,7 @@ RunEnd Verification::show(const Path& whole, unsigned depth, const Work& work, P
   std::string reason;
   bool learned = false;
   Refused last;
-  const auto form = [&](std::size_t k) { return form_of(whole, k, work, last); };
+  const auto form = [&](std::size_t k) { return k == 0 ? std::optional(path) : next_form(whole, k, work, last); };
   const auto learn_from = [&](const PathCheck& check, const Path& refused) {
     if (refused_forms == 1) reason = check.reason;
     if (!check.has_witness) return refused_forms == 1;

@@ -29,7 +29,7 @@ struct Problem {
   /// furthest, rotation included; 0 if only one part has moved.
   double displacement(const State& state) const;
   /// Two parts that move independently have moved, also relative to each other, by more than ends of runs differ.
-  bool several_moved(const State& from, const State& to) const;
+  bool moved_relatively(const State& from, const State& to) const;
   /// Centre of the first moving part, world frame.
   Eigen::Vector3d center(const State& state) const { return state.bodies[0].pose * bodies[0].center; }
   std::vector<Contact> contacts(const State& state) const;
@@ -45,7 +45,7 @@ struct Problem {
   void give_room(State& state) const;
   /// Moves the parts off each other by what the verifier tolerates, where there is room. Poses that follow each other
   /// stay so near that the motion between them keeps off, too, which is not so in the middle of the room.
-  void part_contacts(State& state) const;
+  void move_off_contacts(State& state) const;
   double touch_distance() const { return tactics.touch_distance * query.tolerance; }
 
   const PathQuery& query;

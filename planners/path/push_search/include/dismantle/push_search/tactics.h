@@ -55,9 +55,9 @@ struct SearchParameters {
   /// Number of stages of actions by which two kinds of states are delayed: those in the middle of runs and, if parts
   /// move independently, those in which only one part has moved.
   std::int64_t middle_lag = 2;
-  /// Distance by which a part is moved away from its contacts, where possible, before it follows a screw, and along a
-  /// path on which parts drive each other. As a multiple of verify.max_penetration; 0: to the middle of the room that
-  /// there is, since the play of a fit does not depend on what the verifier tolerates.
+  /// Distance by which a part is moved away from its contacts, where possible, before it follows a screw. As a multiple
+  /// of verify.max_penetration; 0: to the middle of the room that there is, since the play of a fit does not depend on
+  /// what the verifier tolerates.
   double clearance = 0;
   /// Surfaces nearer than this count as touching, and penetration up to this counts as zero. As a share of
   /// verify.max_penetration.

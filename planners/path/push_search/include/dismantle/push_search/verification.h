@@ -44,7 +44,7 @@ class Verification {
   };
 
   Path with_room(Path path, const Work& work) const;
-  std::optional<Path> form_of(const Path& whole, std::size_t k, const Work& work, Refused& last) const;
+  std::optional<Path> next_form(const Path& whole, std::size_t k, const Work& work, const Refused& last) const;
 
   Problem& problem_;
   std::vector<Path> refusals_;
