@@ -1,4 +1,5 @@
 // Searches in which each part moves along its own path: coupled points in mazes.
+#include <algorithm>
 #include <cmath>
 
 #include "maze.h"
@@ -75,6 +76,33 @@ TEST(EachItsWay, AnyOfThoseThatMayLeaveWillDo) {
   ASSERT_EQ(run.result.outcome(), Outcome::solved);
   EXPECT_FALSE(maze.exit.contains(run.result.path()->poses().back()[1].t)) << "the faster one";
   EXPECT_TRUE(maze.exit.contains(run.result.path()->poses().back()[0].t));
+}
+
+/// Each refusal says where the parts are and which contact was not seen: the next form goes through there, moved off.
+TEST(EachItsWay, ARefusedPathIsRepairedWhereItWasRefused) {
+  const std::vector<double> heights{0.011, -0.013, 0.017};  // beside the path, in the order of the refusals
+  MazeRun run;
+  const auto accept_repaired = [&](const Path& path) {
+    Ruling ruling;
+    const auto goes_through = [&](double z) {
+      return std::any_of(path.begin(), path.end(), [&](const auto& row) { return row[0].t.z() == z; });
+    };
+    const auto missing = std::find_if_not(heights.begin(), heights.end(), goes_through);
+    ruling.accept = missing == heights.end();
+    if (ruling.accept) return ruling;
+    ruling.has_witness = true;
+    ruling.part = 0;
+    ruling.other = 2;
+    ruling.poses.assign(2, Pose{});
+    ruling.poses[0].t.z() = *missing;
+    return ruling;
+  };
+  search(run, geared(1.0), {}, {.max_depth = 1}, accept_repaired, {}, 2, {true, true, true, 4}, "contact_search",
+         {0, 1});
+  ASSERT_EQ(run.result.outcome(), Outcome::solved);
+  EXPECT_EQ(run.checked.size(), 1 + 1 + heights.size())
+      << "the path, the one with room, and one for each refusal of it";
+  EXPECT_EQ(run.notes.learned, 1 + heights.size()) << "also the contact of the first refusal";
 }
 
 TEST(EachItsWay, ARunEndsWhereAllHaveLeftTogether) {
