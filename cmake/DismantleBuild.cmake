@@ -128,10 +128,13 @@ function(dismantle_add_late_library name)
 endfunction()
 
 # Settings of a Google Test program. Low optimisation, because each test runs once; the libraries under test keep theirs.
+# GCC compiles what includes a precompiled header with the optimisation of that header, whatever the command line says, so
+# the header has the option, too.
 function(dismantle_use_test_pch target)
   if(NOT TARGET dismantle_test_pch)
     dismantle_pch(dismantle_test_pch ${DISMANTLE_COMMON_HEADERS} <gtest/gtest.h>)
     target_link_libraries(dismantle_test_pch PRIVATE GTest::gtest)
+    target_compile_options(dismantle_test_pch PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
   dismantle_reuse_pch(${target} dismantle_test_pch)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
