@@ -176,11 +176,11 @@ struct MotionDepthMeter::Impl {
       if (is_settled(top.bound)) return true;
       if (measured >= proof_after && !context.should_stop()) {
         proof_after = 2 * measured;
-        const double before = known();
-        const Deeper deeper = deeper_than(part, motion, other, before, resolution(options, worst), context);
+        const double known_before = known();
+        const Deeper deeper = deeper_than(part, motion, other, known_before, resolution(options, worst), context);
         if (!deeper.may_be) return true;
         if (deeper.time) measure(*deeper.time), ++measured;
-        if (known() > before) proof_after = measured;
+        if (known() > known_before) proof_after = measured;
       }
       if (worst->excess() > options.stop_above || context.should_stop() || ++measured > options.most_poses)
         return false;

@@ -40,6 +40,7 @@ class PairSweep {
   const std::vector<Eigen::Vector3d>& hull(PartId part) const;
   std::size_t parts() const { return assembly_.parts.size(); }
   double tolerance() const { return tolerance_; }  ///< of the verifier; assembly units
+  PartMemo& memo() const { return memo_; }         ///< of the oracle, if it shares one
 
  private:
   const std::vector<geometry::Solid>& solids(PartId part) const;

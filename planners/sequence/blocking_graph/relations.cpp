@@ -1,7 +1,10 @@
 #include "blocking_graph/relations.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace dismantle::blocking {
@@ -13,6 +16,12 @@ constexpr double kAngle = 1e-9;  // unit of directions and rotations: far below 
 
 }  // namespace
 
+const SharedAnswers& SharedAnswers::of(const PairSweep& sweep) {
+  // By the tolerance, which decides them, too. The first part stands for the assembly.
+  return *sweep.memo().get<SharedAnswers>(fmt::format("relations of shapes, tolerance {:a}", sweep.tolerance()), 0,
+                                          RunContext{}, [] { return std::optional<SharedAnswers>(std::in_place); });
+}
+
 Relations::Relations(const PairSweep& sweep, const Directions& directions, const Orientations& orientations,
                      std::shared_ptr<Executor> executor)
     : directions_(directions),
@@ -20,6 +29,7 @@ Relations::Relations(const PairSweep& sweep, const Directions& directions, const
       grid_(1e-4 * sweep.tolerance()),
       shadows_(directions.all.size()),
       orientations_(orientations),
+      answers_(SharedAnswers::of(sweep)),
       executor_(std::move(executor)),
       blocks_ahead_(executor_, Executor::Priority::speculative, [](bool blocked) { return blocked; }) {
   for (const auto& d : directions.all) {
@@ -160,10 +170,9 @@ bool Relations::blocks(const Pair& pair) {
   const auto found = blocks_.find(key);
   if (found != blocks_.end()) return found->second;
   const ShapeQuestion question = question_of(pair);
-  auto answer = answers_.find(question);
-  if (answer == answers_.end())
-    answer = answers_.emplace(question, blocks_ahead_.get(question, request(question).compute, {})).first;
-  return blocks_.emplace(key, answer->second).first->second;
+  std::optional<bool> answer = answers_.find(question);
+  if (!answer) answers_.add(question, *(answer = blocks_ahead_.get(question, request(question).compute, {})));
+  return blocks_.emplace(key, *answer).first->second;
 }
 
 void Relations::compute(std::span<const Pair> pairs) {
@@ -172,7 +181,7 @@ void Relations::compute(std::span<const Pair> pairs) {
   for (const Pair& pair : pairs) {
     if (known(pair)) continue;
     asked.emplace_back(key_of(pair), question_of(pair));
-    if (!answers_.contains(asked.back().second)) unknown.push_back(asked.back().second);
+    if (!answers_.find(asked.back().second)) unknown.push_back(asked.back().second);
   }
   std::sort(unknown.begin(), unknown.end());
   unknown.erase(std::unique(unknown.begin(), unknown.end()), unknown.end());
@@ -181,8 +190,8 @@ void Relations::compute(std::span<const Pair> pairs) {
       unknown.size(), executor_.get(),
       [&](std::size_t k) { blocked[k] = blocks_ahead_.get(unknown[k], request(unknown[k]).compute, {}); },
       [] { return false; });
-  for (std::size_t k = 0; k < unknown.size(); ++k) answers_.emplace(unknown[k], blocked[k] != 0);
-  for (const auto& [key, question] : asked) blocks_.emplace(key, answers_.at(question));
+  for (std::size_t k = 0; k < unknown.size(); ++k) answers_.add(unknown[k], blocked[k] != 0);
+  for (const auto& [key, question] : asked) blocks_.emplace(key, answers_.find(question).value());
 }
 
 void Relations::hint(const std::vector<std::vector<Pair>>& lists) {
@@ -192,10 +201,10 @@ void Relations::hint(const std::vector<std::vector<Pair>>& lists) {
     for (const Pair& pair : list) {
       if (known(pair)) continue;
       const ShapeQuestion question = question_of(pair);
-      const auto answer = answers_.find(question);
-      if (answer == answers_.end())
+      const std::optional<bool> answer = answers_.find(question);
+      if (!answer)
         sequence.push_back(request(question));
-      else if (answer->second)
+      else if (*answer)
         break;
     }
     if (!sequence.empty()) sequences.push_back(std::move(sequence));

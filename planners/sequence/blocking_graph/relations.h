@@ -10,9 +10,12 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "blocking_graph/directions.h"
@@ -42,6 +45,37 @@ struct ShapeQuestion {
   std::int64_t length = 0;                            ///< of the translation
   double overlap = 0;                                 ///< when assembled; assembly units
   auto operator<=>(const ShapeQuestion&) const = default;
+};
+
+/// Answers that the planners of a run share: a question says all that its answer depends on. Safe to use from several
+/// threads.
+class SharedAnswers {
+ public:
+  /// Those of the oracle of `sweep`, if it shares its memo with other planners.
+  static const SharedAnswers& of(const PairSweep& sweep);
+  SharedAnswers() = default;
+  SharedAnswers(SharedAnswers&& other) noexcept : known_(std::move(other.known_)), computed_(other.computed_) {}
+
+  std::optional<bool> find(const ShapeQuestion& question) const {
+    const std::scoped_lock lock(mutex_);
+    const auto found = known_.find(question);
+    return found == known_.end() ? std::nullopt : std::optional(found->second);
+  }
+  void add(const ShapeQuestion& question, bool answer) const {
+    const std::scoped_lock lock(mutex_);
+    known_.emplace(question, answer);
+    ++computed_;
+  }
+  /// Number of answers that were added.
+  std::uint64_t computed() const {
+    const std::scoped_lock lock(mutex_);
+    return computed_;
+  }
+
+ private:
+  mutable std::mutex mutex_;  // PartMemo hands out constant values
+  mutable std::map<ShapeQuestion, bool> known_;
+  mutable std::uint64_t computed_ = 0;
 };
 
 /// A relation that does not block is a valid straight path past one part, except for the test of convex hulls at its
@@ -106,7 +140,7 @@ class Relations {
   const Orientations& orientations_;
   mutable std::map<std::tuple<std::size_t, std::size_t, PartId>, Shadow> rotated_shadows_;  // turn, direction, part
   std::map<Key, bool> blocks_;
-  std::map<ShapeQuestion, bool> answers_;
+  const SharedAnswers& answers_;
   std::shared_ptr<Executor> executor_;
   Ahead blocks_ahead_;
 };

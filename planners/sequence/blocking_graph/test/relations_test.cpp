@@ -15,9 +15,10 @@
 namespace dismantle::blocking {
 namespace {
 
-/// Only states the verifier's tolerance.
+/// Only states the verifier's tolerance, and what its planners share.
 class TolerantOracle final : public PathOracle {
  public:
+  explicit TolerantOracle(PartMemo* memo = nullptr) : memo_(memo) {}
   const AttemptResult& attempt(const Attempt&, RunContext&) override { throw std::logic_error("not to be asked"); }
   void prefetch(std::span<const Attempt>, RunContext&) override {}
   const AttemptResult& propose(const Attempt&, const Path&, RunContext&) override {
@@ -25,7 +26,36 @@ class TolerantOracle final : public PathOracle {
   }
   OracleCounts counts() const override { return {}; }
   double tolerance() const override { return 0.01; }
+  PartMemo* memo() override { return memo_; }
+
+ private:
+  PartMemo* memo_;
 };
+
+TEST(Relations, OfOnePlannerAreNotComputedAgainByTheNext) {
+  const Assembly assembly = fake::tube_with_blocks(4);
+  const Directions directions = directions_of(assembly);
+  const Orientations orientations;
+  const auto ask_all = [&](const PairSweep& sweep) {
+    Relations relations(sweep, directions, orientations, nullptr);
+    std::vector<bool> answers;
+    for (PartId a = 0; a < assembly.parts.size(); ++a)
+      for (PartId b = 0; b < assembly.parts.size(); ++b)
+        for (std::size_t d = 0; a != b && d < directions.all.size(); ++d)
+          answers.push_back(relations.blocks({a, b, d, Eigen::Vector3d::Zero(), 0, 0}));
+    return answers;
+  };
+  PartMemo memo;
+  TolerantOracle sharing(&memo), other;
+  const PairSweep first(assembly, sharing), second(assembly, sharing), apart(assembly, other);
+  const auto answers = ask_all(first);
+  const std::uint64_t computed = SharedAnswers::of(first).computed();
+  EXPECT_GT(computed, 0U);
+  EXPECT_EQ(ask_all(second), answers);
+  EXPECT_EQ(SharedAnswers::of(second).computed(), computed);
+  EXPECT_EQ(SharedAnswers::of(apart).computed(), 0U);
+  EXPECT_EQ(ask_all(apart), answers);
+}
 
 TEST(Relations, AreTheSameWhoeverHelps) {
   for (const Assembly& assembly : {fake::tube_with_blocks(4), barred_shaft()}) {
@@ -48,7 +78,8 @@ TEST(Relations, AreTheSameWhoeverHelps) {
     for (const unsigned threads : {1U, 2U, 4U})
       for (int trial = 0; trial < 5; ++trial) {
         const auto executor = std::make_shared<Executor>(threads);
-        Relations helped(sweep, directions, orientations, executor);
+        const PairSweep own(assembly, oracle);  // knows no answers yet
+        Relations helped(own, directions, orientations, executor);
         EXPECT_EQ(helped.works_ahead(), threads > 1);
         for (int round = 0; round < 10; ++round) {
           std::vector<std::vector<Pair>> lines(rng.below(6));
