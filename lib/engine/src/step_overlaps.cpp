@@ -8,9 +8,9 @@
 
 namespace dismantle {
 
-std::vector<std::vector<PlanStepOverlap>> step_overlaps(const Disassembly& done,
-                                                        const Assembly& assembly, const Verifier& verifier,
-                                                        double least, const RunContext& context) {
+std::vector<std::vector<PlanStepOverlap>> step_overlaps(const Disassembly& done, const Assembly& assembly,
+                                                        const Verifier& verifier, double least,
+                                                        const RunContext& context) {
   const std::vector<DisassemblyStep>& steps = done.steps();
   std::vector<std::vector<PlanStepOverlap>> all(steps.size());
   std::vector<const InitialOverlap*> deep;
@@ -32,7 +32,8 @@ std::vector<std::vector<PlanStepOverlap>> step_overlaps(const Disassembly& done,
         const PartId other = o->a == part ? o->b : o->a;
         if (contains(step.parts, other) || done.group(other, k) != done.left_group(k)) continue;
         MotionDepthOptions options;
-        options.at_most = o->allowed() + verifier.options().max_penetration;  // the step has been verified
+        if (!step.forced)  // the step has been verified
+          options.at_most = o->allowed() + verifier.options().max_penetration;
         const auto found = meter.deepest({part}, {{other, done.pose(other, k)}}, column, options, context, true);
         if (!found || found->depth <= 0) continue;
         const Normalization& to = assembly.normalization;

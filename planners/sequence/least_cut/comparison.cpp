@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kClearlyLess = 0.95;
-constexpr double kEqualSums = 1.1;   // of sums up to this factor the number of steps decides
+constexpr double kEqualSums = 1.1;  // of sums up to this factor the number of steps decides
 
 bool cuts_less(const Choice& a, const Choice& b) { return a.excess() < b.excess(); }
 
@@ -28,8 +28,11 @@ double Comparison::unsure(double excess) const {
   return excess + std::max(params_.depth_resolution * tolerance_, params_.depth_share * excess);
 }
 
+/// Does `b` stand for `a`? A direction of a sample does not stand for the axis of a feature near it: along the axis a
+/// peg may cut in by its press fit, beside it by half of its wall.
 bool Comparison::alike(const ForcedMotion& a, const ForcedMotion& b) const {
-  return a.straight() && b.straight() && a.twist.linear.dot(b.twist.linear) > params_.set_similarity;
+  return (a.sampled || !b.sampled) && a.straight() && b.straight() &&
+         a.twist.linear.dot(b.twist.linear) > params_.set_similarity;
 }
 
 /// The motions to measure first: the most promising ones of each set of parts, in distinct directions.
@@ -153,9 +156,8 @@ std::vector<Choice> Comparison::of_best_outlook(const std::vector<Choice>& list,
     if (!sum) break;
     sums.emplace_back(*sum, &choice);
   }
-  const auto best = std::min_element(sums.begin(), sums.end(), [](const auto& a, const auto& b) {
-    return a.first.better_than(b.first);
-  });
+  const auto best = std::min_element(sums.begin(), sums.end(),
+                                     [](const auto& a, const auto& b) { return a.first.better_than(b.first); });
   if (best == sums.end()) return list;
   std::vector<Choice> result;
   for (const Choice& choice : list)

@@ -107,32 +107,33 @@ bool ForcedMotions::allowed(const Placed& moving, const Placed& group) const {
   return may_leave(ids_of(moving), ids_of(without(group, moving)), constraints_);
 }
 
-std::vector<Vec3> ForcedMotions::directions(const Placed& group, Variety variety) {
+std::vector<ForcedMotions::Direction> ForcedMotions::directions(const Placed& group, Variety variety) {
   std::vector<geometry::FaceAxis> lines;
   for (const PlacedPart& p : group)
     for (const geometry::FaceAxis& a : axes(p.part))
       geometry::add_face(lines, {p.pose.q * a.axis, a.area}, geometry::kSameDirection);
   geometry::sort_by_area(lines, variety == Variety::all ? params_.group_axes : params_.quick_axes);
   for (int k = 0; k < 3; ++k) geometry::add_face(lines, {Vec3::Unit(k), 0}, geometry::kSameDirection);
-  std::vector<Vec3> list;
+  std::vector<Direction> list;
   for (const geometry::FaceAxis& a : lines) {
-    list.push_back(a.axis.normalized());
-    list.push_back(-a.axis.normalized());
+    list.push_back({a.axis.normalized()});
+    list.push_back({-a.axis.normalized()});
   }
   if (variety == Variety::all)
-    for (const Vec3& d : sphere(params_.directions)) list.push_back(d);
+    for (const Vec3& d : sphere(params_.directions)) list.push_back({d, true});
   return list;
 }
 
 /// Along the axes of the parts of the unit, except those that are listed.
-std::vector<Vec3> ForcedMotions::own_directions(const Placed& unit, const std::vector<Vec3>& listed) {
+std::vector<Vec3> ForcedMotions::own_directions(const Placed& unit, const std::vector<Direction>& listed) {
   std::vector<Vec3> list;
   for (const PlacedPart& p : unit)
     for (const geometry::FaceAxis& a : axes(p.part))
       for (const double sign : {1.0, -1.0}) {
         const Vec3 d = sign * (p.pose.q * a.axis).normalized();
         const auto same = [&](const Vec3& other) { return d.dot(other) > geometry::kSameDirection; };
-        if (std::none_of(listed.begin(), listed.end(), same) && std::none_of(list.begin(), list.end(), same))
+        const auto same_feature = [&](const Direction& other) { return !other.sampled && same(other.along); };
+        if (std::none_of(listed.begin(), listed.end(), same_feature) && std::none_of(list.begin(), list.end(), same))
           list.push_back(d);
       }
   return list;
@@ -241,7 +242,9 @@ double ForcedMotions::thickness(const ForcedMotion& motion, const Vec3& along) {
 
 /// Adds the unit alone, with all that blocks it, and with only what blocks it firmly.
 void ForcedMotions::add_straight(const Placed& unit, const std::vector<Placed>& all, const Placed& group,
-                                 const Vec3& along, std::vector<ForcedMotion>& list, const RunContext& context) {
+                                 const Direction& direction, std::vector<ForcedMotion>& list,
+                                 const RunContext& context) {
+  const Vec3& along = direction.along;
   std::vector<Placed> sets{unit};
   for (const double most : {params_.blocking_share, params_.firm_share}) {
     std::vector<bool> moves(all.size(), false);
@@ -275,7 +278,9 @@ void ForcedMotions::add_straight(const Placed& unit, const std::vector<Placed>& 
     const bool listed = std::any_of(list.begin(), list.end(), [&](const ForcedMotion& m) {
       return m.twist.linear == along && ids_of(m.moving) == ids_of(set);
     });
-    if (!listed) list.push_back(straight(set, group, along));
+    if (listed) continue;
+    list.push_back(straight(set, group, along));
+    list.back().sampled = direction.sampled;
   }
 }
 
@@ -303,8 +308,8 @@ void ForcedMotions::add_screws(const Placed& unit, const Placed& group, std::vec
 std::vector<ForcedMotion> ForcedMotions::candidates(const Placed& group, const RunContext& context) {
   const std::vector<Placed> all = units(group);
   std::vector<ForcedMotion> list;
-  const std::vector<Vec3> shared = directions(group, Variety::all);
-  for (const Vec3& d : shared)
+  const std::vector<Direction> shared = directions(group, Variety::all);
+  for (const Direction& d : shared)
     for (const Placed& unit : all) {
       if (context.should_stop()) break;
       add_straight(unit, all, group, d, list, context);
@@ -312,7 +317,7 @@ std::vector<ForcedMotion> ForcedMotions::candidates(const Placed& group, const R
   for (const Placed& unit : all) {
     if (context.should_stop()) break;
     // In a large group the axes of small parts are not among those of the group.
-    for (const Vec3& d : own_directions(unit, shared)) add_straight(unit, all, group, d, list, context);
+    for (const Vec3& d : own_directions(unit, shared)) add_straight(unit, all, group, {d}, list, context);
     add_screws(unit, group, list);
   }
   std::stable_sort(list.begin(), list.end(), more_promising);
@@ -328,11 +333,11 @@ std::optional<ForcedMotion> ForcedMotions::quick_candidate(const Placed& group, 
     std::size_t direction;
     double length;
   };
-  const std::vector<Vec3> directions = this->directions(group, Variety::few);
+  const std::vector<Direction> directions = this->directions(group, Variety::few);
   std::vector<DirectionalBlockers::Along> along;
   std::vector<Candidate> candidates;
   for (std::size_t d = 0; d < directions.size(); ++d) {
-    along.push_back(blockers_.along(directions[d]));
+    along.push_back(blockers_.along(directions[d].along));
     for (const Placed& unit : leaving) candidates.push_back({&unit, d, along.back().length(unit)});
     if (context.should_stop()) return std::nullopt;
   }
@@ -350,7 +355,7 @@ std::optional<ForcedMotion> ForcedMotions::quick_candidate(const Placed& group, 
     if (least == 0) break;
   }
   if (best == nullptr) return std::nullopt;
-  return straight(*best->unit, group, directions[best->direction]);
+  return straight(*best->unit, group, directions[best->direction].along);
 }
 
 Path ForcedMotions::path(const ForcedMotion& motion) const {

@@ -29,6 +29,7 @@ struct ForcedMotion {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double duration = 0;   ///< until the hulls are apart
   double thickness = 0;  ///< of material in the way, mean over rays between the two sides, summed over pairs of parts
+  bool sampled = false;  ///< along a direction that no feature of the parts has
   bool straight() const { return twist.angular.isZero(); }
 };
 
@@ -69,9 +70,13 @@ class ForcedMotions {
     double resolution = std::numeric_limits<double>::infinity();  // with which `depth` was measured; infinity: not yet
   };
   enum class Variety { few, all };
+  struct Direction {
+    Eigen::Vector3d along;
+    bool sampled = false;  ///< as ForcedMotion::sampled
+  };
   std::vector<Placed> units(const Placed& group) const;
-  std::vector<Eigen::Vector3d> directions(const Placed& group, Variety variety);
-  std::vector<Eigen::Vector3d> own_directions(const Placed& unit, const std::vector<Eigen::Vector3d>& listed);
+  std::vector<Direction> directions(const Placed& group, Variety variety);
+  std::vector<Eigen::Vector3d> own_directions(const Placed& unit, const std::vector<Direction>& listed);
   const std::vector<geometry::FaceAxis>& axes(PartId part);
   const std::vector<geometry::Twist>& turns(PartId part);
   Known& known(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along);
@@ -81,8 +86,8 @@ class ForcedMotions {
   void send_rays(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along, Known& entry) const;
   double reach(const PlacedPart& part, const Eigen::Vector3d& along) const;
   bool allowed(const Placed& moving, const Placed& group) const;
-  void add_straight(const Placed& unit, const std::vector<Placed>& all, const Placed& group,
-                    const Eigen::Vector3d& along, std::vector<ForcedMotion>& list, const RunContext& context);
+  void add_straight(const Placed& unit, const std::vector<Placed>& all, const Placed& group, const Direction& along,
+                    std::vector<ForcedMotion>& list, const RunContext& context);
   void add_screws(const Placed& unit, const Placed& group, std::vector<ForcedMotion>& list);
   ForcedMotion straight(const Placed& moving, const Placed& group, const Eigen::Vector3d& along);
   const std::vector<geometry::Solid>& solids(PartId part) const;

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -149,6 +151,25 @@ Assembly cover_with_snaps(Rng& rng) {
   return fake::assembly_of({{"base", base}, {"cover", cover}, {"block", {{{1, 1, 0.1}, {5, 5, 1.9}}}}});
 }
 
+/// A screw with a neck below its head, deep in its bore along the thread and deeper in the narrower mouth of the bore.
+Assembly screw_with_neck(Rng& rng) {
+  const double shank = rng.uniform(2, 4), length = rng.uniform(3, 5) * shank, mouth = rng.uniform(0.8, 1.5) * shank;
+  const double bore = shank - rng.uniform(0.2, 0.3), narrow = bore - rng.uniform(0.1, 0.2), neck = narrow - 0.2;
+  const Mesh screw = shapes::lathe({{0.05, -length},
+                                    {shank, -length},
+                                    {shank, -1.5 * mouth},
+                                    {neck, -1.5 * mouth},
+                                    {neck, 0},
+                                    {2 * shank, 0},
+                                    {2 * shank, shank},
+                                    {0.05, shank}},
+                                   kAround);
+  const Mesh block = shapes::lathe(
+      {{bore, -length - 2}, {3 * shank, -length - 2}, {3 * shank, 0}, {narrow, 0}, {narrow, -mouth}, {bore, -mouth}},
+      kAround);
+  return shapes::assembly_of({block, screw}, {{0, 1, (shank - bore) * std::cos(std::numbers::pi / kAround)}});
+}
+
 void expect_the_least_sum(const Assembly& assembly) {
   const auto nothing = [](const Assembly&, PathOracle&, SequenceObserver&, RunContext&) {
     SequenceResult result;
@@ -188,7 +209,8 @@ TEST_P(ForcedSum, IsTheLeastOverAllPartsGroupsAndAxes) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, ForcedSum,
                          testing::Values(Kind{"rod", rod_through_eyes}, Kind{"rings", two_rings},
-                                         Kind{"spacer", spacer_between_plates}, Kind{"snaps", cover_with_snaps}),
+                                         Kind{"spacer", spacer_between_plates}, Kind{"snaps", cover_with_snaps},
+                                         Kind{"neck", screw_with_neck}),
                          [](const auto& kind) { return kind.param.name; });
 
 }  // namespace
