@@ -65,8 +65,7 @@ bool SnapFits::holds_all(const GroupState& group) {
 }
 
 std::optional<MotionDepth> SnapFits::alone(const GroupState& group, SubassemblyId id) {
-  if (!(params_.snap_share > 0) || straight_ == nullptr || oracle_.forcing() == nullptr || !state_.is_single(id) ||
-      state_.assembly().parts.size() < 3)
+  if (!(params_.snap_share > 0) || straight_ == nullptr || oracle_.forcing() == nullptr || !state_.is_single(id))
     return std::nullopt;
   if (arrangement_ != state_.arrangement()) known_.clear();
   arrangement_ = state_.arrangement();
@@ -85,8 +84,10 @@ double SnapFits::deepest_snap(PartId part, PartId other) const {
     const Part& of = state_.assembly().parts[p];
     return std::abs(of.volume) / surface_area(*of.mesh);
   };
-  return std::min(params_.snap_share * std::min(diagonal(part), diagonal(other)),
-                  std::max(half_wall(part), half_wall(other)));
+  const double most = std::min(params_.snap_share * std::min(diagonal(part), diagonal(other)),
+                               std::max(half_wall(part), half_wall(other)));
+  // Two parts alone may be a puzzle, or a thread. What cuts in by twice of what it does when assembled is pressed in.
+  return state_.assembly().parts.size() > 2 ? most : std::min(most, state_.assembly().initial_overlap(part, other));
 }
 
 /// Along the directions with the fewest blockers, which are those of the mating feature: studs, axles, clips.
@@ -110,6 +111,7 @@ std::optional<MotionDepth> SnapFits::along(const GroupState& group, SubassemblyI
   const double length = straight_->length_out(group, {id}, direction);
   std::optional<MotionDepth> worst;
   for (const PartId other : state_.parts_of(blockers)) {
+    if (deepest_snap(part, other) <= oracle_.tolerance()) return std::nullopt;
     const std::optional<MotionDepth> cut = of_pair(part, other, direction, length);
     if (!cut || state_.context().should_stop()) continue;
     if (cut->excess() > deepest_snap(part, other)) return std::nullopt;

@@ -21,7 +21,7 @@ namespace dismantle::blocking {
 /// they are put together. What is free when such parts are off is held so, too. No rigid motion takes most of them
 /// out. When a few deep searches of such parts have found nothing, the others are searched for to depth 1 only, and
 /// left to forced steps; so are all when there are few and each was searched for deeper. Without forced steps
-/// (`run.force: off`, `bench`) no part counts as held so, nor in an assembly of two parts.
+/// (`run.force: off`, `bench`) no part counts as held so; of two parts alone, only those that are pressed together.
 class SnapFits {
  public:
   /// `straight`: null when switched off; then no part counts. `known_before`: an earlier planner of the run has

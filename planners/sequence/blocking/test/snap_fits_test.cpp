@@ -5,16 +5,18 @@
 #include <map>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 #include "run_blocking.h"
 
 namespace dismantle {
 namespace {
 
-/// Open above, with a lip on all four sides that covers the rim of a block of 2 x 2 x 1 in it.
-Mesh case_with_lip(double lip) {
+/// Open above, with a lip on all four sides that covers the rim of a block of 2 x 2 x 1 in it, which has room of
+/// `width` on each side of its axis.
+Mesh case_with_lip(double lip, double width = 1) {
   Mesh made = shapes::box({-2, -2, -1}, {2, 2, 0});
-  for (const auto& [z0, z1, inner] : {std::tuple(0.0, 1.0, 1.0), std::tuple(1.0, 1.4, 1 - lip)}) {
+  for (const auto& [z0, z1, inner] : {std::tuple(0.0, 1.0, width), std::tuple(1.0, 1.4, 1 - lip)}) {
     made = shapes::joined(made, shapes::box({-2, -2, z0}, {-inner, 2, z1}));
     made = shapes::joined(made, shapes::box({inner, -2, z0}, {2, 2, z1}));
     made = shapes::joined(made, shapes::box({-inner, -2, z0}, {inner, -inner, z1}));
@@ -113,6 +115,16 @@ TEST(SnapFits, FewPartsThatAreAllSearchedForAreLeftToForcedSteps) {
 
 TEST(SnapFits, DoNotCountInAnAssemblyOfTwoParts) {
   EXPECT_EQ(most_of(deepest_searches(clipped(0.1, false), ForceWhen::last_resort)), kNoLimit);
+}
+
+TEST(SnapFits, CountInAnAssemblyOfTwoPartsThatArePressedTogether) {
+  // Twice as deep in the lip as when assembled, and more.
+  for (const auto& [lip, count] : {std::pair(0.1, true), std::pair(0.2, false)}) {
+    const Assembly pressed = shapes::assembly_of({case_with_lip(lip, 0.92), block()}, {{0, 1, 0.08}});
+    const unsigned limited = BlockingParameters{}.snap_depth_of_few;
+    EXPECT_EQ(most_of(deepest_searches(pressed, ForceWhen::last_resort)), count ? limited : kNoLimit) << lip;
+    EXPECT_EQ(most_of(deepest_searches(pressed, ForceWhen::off)), kNoLimit) << lip;
+  }
 }
 
 }  // namespace
