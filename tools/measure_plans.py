@@ -5,7 +5,7 @@
     tools/measure_plans.py --plan build/release/dismantle --inputs data/cad/* --out DIR [-- OPTIONS OF plan]
 
 Each DIR holds plan.json and plan.glb. Steps are read as assembly operations, the last step of the disassembly first;
-the direction of an operation is that of the last stretch of the insertion. Columns:
+the direction of an operation is that of the last stretch of the insertion, for a screw that of its axis. Columns:
 
   steps       steps of the disassembly; `forced`: of these, forced ones
   changes     operations whose direction differs by more than 1 degree from that of the operation before
@@ -14,8 +14,11 @@ the direction of an operation is that of the last stretch of the insertion. Colu
   below       operations that move upwards, within 45 degrees, as the assembly lies during the step
   turns       operations for which the assembly lies differently than for the one before
   fall        operations after which nothing is under a part that was put in: neither a part that is there nor the
-              table. Geometric: no sample of its surface has a surface of another part, or the table, below it within
-              2 % of the size of the assembly. A part of a group counts if the whole group has nothing under it.
+              table. Geometric: no sample of the surface that faces downwards has a surface of another part, or the
+              table, below it within 2 % of the size of the assembly. A part of a group counts if the whole group has
+              nothing under it.
+  always      of these, those of which it is true with all other parts there, too: as drawn nothing is under them, and no
+              order helps while the assembly lies like this
 
 Exit status: 0; 1 when a plan could not be made or read, which the table says.
 """
@@ -24,15 +27,14 @@ import csv
 import json
 import math
 import pathlib
-import random
 import struct
 import subprocess
 import sys
 
 ANGLE = math.radians(1)
 NEAR = 0.02  # of the size of the assembly
-SAMPLES = 48
-COLUMNS = ("name", "status", "parts", "steps", "forced", "changes", "directions", "no axis", "below", "turns", "fall", "cost")
+SAMPLES = 3000  # of a part at most, on the surface that faces downwards
+COLUMNS = ("name", "status", "parts", "steps", "forced", "changes", "directions", "no axis", "below", "turns", "fall", "always", "cost")
 
 
 def dot(a, b):
@@ -57,6 +59,17 @@ def rotated(q, p):
 
 def placed(pose, p):
     return tuple(a + b for a, b in zip(rotated(pose[3:], p), pose[:3]))
+
+
+def screw_axis(start, pose, along):
+    """Unit, as `along`; None for what is no screw. A centre beside the axis goes round it; a hinge hardly moves along it."""
+    (w, *a), (v, *b) = start[3:], pose[3:]
+    axis = tuple(v * p - w * q + x for p, q, x in zip(a, b, (a[2] * b[1] - a[1] * b[2], a[0] * b[2] - a[2] * b[0],
+                                                             a[1] * b[0] - a[0] * b[1])))  # of start * pose^-1
+    advance = dot(along, axis)
+    if abs(advance) <= max(0.01 * math.sqrt(dot(axis, axis)), 1e-8) * math.sqrt(dot(along, along)):
+        return None
+    return unit(tuple(math.copysign(1, advance) * x for x in axis))
 
 
 # ---- shapes, from the animation
@@ -109,7 +122,7 @@ class Shapes:
         self.size = max(max(p[k] for p in every) - min(p[k] for p in every) for k in range(3))
         self.low = {n: min(p[2] for p in pts) for n, pts in self.points.items()}
         self.cell = self.size / 40
-        self.grids = {}
+        self.grids, self.sampled = {}, {}
 
     def grid(self, name):
         if name not in self.grids:
@@ -124,13 +137,23 @@ class Shapes:
         return self.grids[name]
 
     def samples(self, name):
-        pts, chosen, rng = self.points[name], [], random.Random(1)
-        triangles = self.triangles[name]
-        lowest = sorted(range(len(triangles)), key=lambda t: sum(pts[i][2] for i in triangles[t]))
-        for t in lowest[:SAMPLES] + rng.sample(lowest, min(2 * SAMPLES, len(lowest))):
-            a, b, c = (pts[i] for i in triangles[t])
-            chosen.append(tuple((u + v + w) / 3 for u, v, w in zip(a, b, c)))
-        return chosen
+        """Points on all triangles that face downwards, as dense as the cells: a rod touches what it lies in with a small
+        part of its long triangles."""
+        if name not in self.sampled:
+            pts, found = self.points[name], []
+            step = self.cell / 2
+            for a, b, c in ([pts[i] for i in t] for t in self.triangles[name]):
+                if (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]) >= 0:
+                    continue
+                edges = max(math.dist(a, b), math.dist(b, c), math.dist(c, a))
+                n = max(1, min(60, math.ceil(edges / step)))
+                for i in range(n):
+                    for j in range(n - i):
+                        u, v = (i + 1 / 3) / n, (j + 1 / 3) / n
+                        found.append(tuple(p + u * (q - p) + v * (r - p) for p, q, r in zip(a, b, c)))
+            stride = -(-len(found) // SAMPLES) if found else 1
+            self.sampled[name] = found[::stride]
+        return self.sampled[name]
 
     def has_under(self, point, other):
         """Is a surface of `other` just below the point, or just above it (a part may cut in a little)?"""
@@ -176,7 +199,7 @@ def operations(plan):
         for pose in poses[1:]:
             along = tuple(a - b for a, b in zip(start, placed(pose, centre)))
             if math.sqrt(dot(along, along)) > 1e-9:
-                direction = unit(along)
+                direction = screw_axis(poses[0], pose, along) or unit(along)
                 break
         up = step.get("up") or plan.get("objective", {}).get("up") or (0, 0, 1)
         found.append((step, leaving, rest, direction, unit(up)))
@@ -210,6 +233,8 @@ def measure(folder):
             shapes[up] = Shapes(meshes, up)
         if present and not shapes[up].stands(moving, present):
             row["fall"] += 1
+            others = [p["name"] for p in plan["assembly"]["parts"] if p["name"] not in moving]
+            row["always"] += not shapes[up].stands(moving, others)
     row["directions"] = len(seen)
     return row
 

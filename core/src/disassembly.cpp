@@ -72,10 +72,8 @@ void Disassembly::pop() {
   const DisassemblyStep& last = steps_.back();
   for (const PartId id : last.parts) stands_[id].pop_back();
   std::vector<PartId>& from = groups_[stands_[last.parts.front()].back().group];
-  const std::vector<PartId> leaving = last.leaving();
-  std::vector<PartId> all;
-  std::merge(from.begin(), from.end(), leaving.begin(), leaving.end(), std::back_inserter(all));
-  from = std::move(all);
+  from.insert(from.end(), groups_.back().begin(), groups_.back().end());
+  std::sort(from.begin(), from.end());
   groups_.pop_back();
   steps_.pop_back();
 }
@@ -95,8 +93,7 @@ std::vector<PlacedPart> Disassembly::placed(std::span<const PartId> parts, std::
 
 std::vector<PlacedPart> Disassembly::around(PartId part) const {
   if (group(part) == kAbsent) return {};
-  const PartId self[] = {part};
-  return placed(without(groups_[group(part)], self));
+  return placed(without(groups_[group(part)], std::vector{part}));
 }
 
 std::vector<std::vector<PlacedPart>> open_groups(const Disassembly& disassembly, const Constraints& constraints) {

@@ -8,12 +8,16 @@ namespace dismantle {
 namespace {
 
 /// Direction of the last stretch of an insertion: how the centre of the first part moves between the last two poses
-/// that differ. Zero for a rotation in place.
+/// that differ; of a screw its axis, round which a centre beside it goes. A hinge hardly moves along its axis: it is no
+/// screw. Zero for a rotation in place.
 Eigen::Vector3d last_direction(const Assembly& assembly, const std::vector<PlacedPart>& moved, const Trace& insertion) {
   const auto& mesh = assembly.parts.at(moved.front().part).mesh;
   const Eigen::Vector3d center = mesh && !mesh->vertices.empty() ? mesh->box().center() : Eigen::Vector3d::Zero();
   for (std::size_t k = insertion.size(); k-- > 1;) {
     const Eigen::Vector3d along = insertion[k].front() * center - insertion[k - 1].front() * center;
+    const Eigen::Vector3d axis = (insertion[k].front().q * insertion[k - 1].front().q.conjugate()).vec();
+    const double advance = along.dot(axis), least = std::max(0.01 * axis.norm(), 1e-8) * along.norm();
+    if (advance * advance > least * least) return (advance * axis).normalized();
     if (along.norm() > 0) return along.normalized();
   }
   return Eigen::Vector3d::Zero();
