@@ -92,6 +92,18 @@ class Objective(CliTest):
             costs.append(objective["cost"])
         self.assertEqual(costs, [5, 1])
         self.assertEqual(objective["least_cost"], 1)
+        self.assertEqual([c["cost"] for c in objective["alternatives"][0]["checks"]], [5])
+        other = objective["alternatives"][-1]
+        self.assertGreater(other["checks"][0]["cost"], 1)
+        self.run_program("book", "out/plan.json", "-o", "book.html", status=0)
+        told = "the order that was found first would cost 5: directions 4 more"
+        more = f"it would cost {other['checks'][0]['cost'] - 1:.3g} more: directions"
+        explained = self.run_program("explain", "out/plan.json", status=0).stdout
+        self.run_program("export", "out/plan.json", "--format", "markdown", "-o", "steps.md", status=0)
+        for text in (explained, self.read("out", "index.html"), self.read("book.html"), self.read("steps.md").replace("\\", "")):
+            self.assertIn(told, text)
+            self.assertIn(more, text)
+        self.assertIn(told, done.stdout)
 
     def test_a_target_comes_out_in_one_step(self):
         self.plan_with("[directions]", "all")

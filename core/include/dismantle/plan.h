@@ -83,6 +83,13 @@ struct PlanObjectiveItem {
   std::optional<PlanVerdict> plan{};  ///< of the plan as a whole; none: the check judges steps only
 };
 
+/// What another order costs that was judged and not taken: the one that was found first (`step` 0), or that of the plan
+/// with disassembly step `step` at the place of step `place`.
+struct PlanAlternative {
+  unsigned step = 0, place = 0;
+  std::vector<PlanVerdict> checks;  ///< as PlanObjective::checks; cost: over all steps; reason: why it is more
+};
+
 /// What the steps of a plan were judged by, and the sum.
 struct PlanObjective {
   std::vector<PlanObjectiveItem> checks;          ///< empty: the plan was not judged
@@ -90,6 +97,7 @@ struct PlanObjective {
   double cost = 0;                                ///< weighted sum over all steps and checks
   /// No order of what was asked for costs less: a proved bound. None: not known. Equal to `cost`: the order is optimal.
   std::optional<double> least_cost{};
+  std::vector<PlanAlternative> alternatives{};
   bool empty() const { return checks.empty(); }
 };
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "acceptance.h"
+#include "alternatives.h"
 #include "assembler.h"
 #include "deferred_simulator.h"
 #include "dismantle/engine/judgement.h"
@@ -249,6 +250,8 @@ class Run {
     judge(result.plan, done, assembly_, setup_.objective, context_);
     if (sequence_.least_cost && !result.plan.objective.empty())
       result.plan.objective.least_cost = std::min(*sequence_.least_cost, result.plan.objective.cost);
+    add_first_order(result.plan, sequence_.counts);
+    add_other_places(result.plan, done, needed, assembly_, setup_.objective, options_.constraints, context_);
     if (!puts_together) return;
     result.plan.assembly_steps = std::move(back.steps);
     result.plan.assembly_status = back.status;

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <utility>
 
 #include "dismantle/plan_io/step_numbers.h"
 
@@ -43,7 +45,30 @@ double cost_of(const PlanObjective& objective, const std::string& type) {
 
 }  // namespace
 
-std::string order_words(const Plan& plan, std::size_t index, bool disassembly) {
+namespace {
+
+/// "2 more", "0.5 less"; empty: no difference worth a word.
+std::string more_words(double cost, double than) {
+  if (std::abs(cost - than) < 1e-6 * (1 + than)) return {};
+  return fmt::format("{:.3g} {}", std::abs(cost - than), cost > than ? "more" : "less");
+}
+
+/// What each check says otherwise than of the plan: "directions 3 more, gravity 1 less".
+std::string changes_words(const PlanObjective& objective, const PlanAlternative& other) {
+  std::string out;
+  for (std::size_t i = 0; i < std::min(other.checks.size(), objective.checks.size()); ++i) {
+    const PlanVerdict& v = other.checks[i];
+    const std::string more = more_words(v.weight * v.cost, weighted(objective.checks[i]));
+    if (more.empty()) continue;
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", v.type, more);
+    if (!v.allowed) out += ", not allowed";
+    if (!v.reason.empty()) out += fmt::format(" ({})", v.reason);
+  }
+  return out;
+}
+
+/// What has to come before and after a step.
+std::string waits_words(const Plan& plan, std::size_t index, bool disassembly) {
   const PlanStep& step = plan.disassembly.at(index);
   if (step.layer == 0) return {};        // not determined
   std::set<std::size_t> earlier, later;  // in the disassembly
@@ -57,6 +82,43 @@ std::string order_words(const Plan& plan, std::size_t index, bool disassembly) {
   if (!earlier.empty()) out += "after " + steps_words(earlier);
   if (!later.empty()) out += (out.empty() ? "before " : ", before ") + steps_words(later);
   return out + ": parts are in the way otherwise";
+}
+
+}  // namespace
+
+double cost_of(const PlanAlternative& other) {
+  double sum = 0;
+  for (const PlanVerdict& v : other.checks) sum += v.weight * v.cost;
+  return sum;
+}
+
+std::string other_place_words(const Plan& plan, std::size_t index, bool disassembly) {
+  std::string out;
+  for (const PlanAlternative& other : plan.objective.alternatives) {
+    if (other.step != index + 1) continue;
+    const bool earlier = (other.place < other.step) == disassembly;
+    const std::string more = more_words(cost_of(other), plan.objective.cost);
+    const std::string why = changes_words(plan.objective, other);
+    out += fmt::format("{}{} step {} it would cost {}{}", out.empty() ? "" : "; ", earlier ? "before" : "after",
+                       step_number(plan, other.place - 1, disassembly), more.empty() ? "as much" : more,
+                       why.empty() ? "" : ": " + why);
+  }
+  return out;
+}
+
+std::string order_words(const Plan& plan, std::size_t index, bool disassembly) {
+  const std::string waits = waits_words(plan, index, disassembly), other = other_place_words(plan, index, disassembly);
+  return waits.empty() || other.empty() ? waits + other : waits + "; " + other;
+}
+
+std::string first_order_words(const PlanObjective& objective) {
+  for (const PlanAlternative& other : objective.alternatives)
+    if (other.step == 0) {
+      const std::string why = changes_words(objective, other);
+      return fmt::format("the order that was found first would cost {:.3g}{}", cost_of(other),
+                         why.empty() ? "" : ": " + why);
+    }
+  return {};
 }
 
 std::vector<std::string> cost_words(const Plan& plan, bool disassembly) {
@@ -80,6 +142,7 @@ std::vector<std::string> cost_words(const Plan& plan, bool disassembly) {
     out.push_back("no order of these motions costs less");
   else if (objective.cost > 0)
     out.push_back(fmt::format("no order of these motions costs less than {:.3g}", *objective.least_cost));
+  if (std::string first = first_order_words(objective); !first.empty()) out.push_back(std::move(first));
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "dismantle/plan_io/order_words.h"
 #include "dismantle/plan_io/text_columns.h"
 
 namespace dismantle {
@@ -36,6 +37,7 @@ std::string objective_text(const Plan& plan) {
                                    : std::string(" (no order of these motions costs less)");
   for (const PlanObjectiveItem& item : objective.checks)
     out += fmt::format("; {}: {:.4g}, weight {:.4g}", item.type, item.cost, item.weight);
+  if (const std::string first = first_order_words(objective); !first.empty()) out += "; " + first;
   const auto count = [&](auto which) {
     return static_cast<std::size_t>(std::ranges::count_if(
         plan.disassembly, [&](const PlanStep& step) { return std::ranges::any_of(step.checks, which); }));

@@ -114,6 +114,36 @@ TEST(OrderWords, EachCheckThatCostsNamesItsSteps) {
   EXPECT_EQ(cost_words(plan, true).back(), "no order of these motions costs less than 1");
 }
 
+// Law: the place of an alternative is the same one in both modes, with the numbers of the mode; what is cheaper, dearer
+// and equal is called so, and the check that says it gives its reason.
+TEST(OrderWords, AnotherPlaceSaysWhatItWouldCost) {
+  Rng rng(9);
+  Plan plan = waiting_plan(rng);
+  while (plan.disassembly.size() < 4) plan = waiting_plan(rng);
+  const std::size_t n = plan.disassembly.size();
+  plan.objective.checks = {{.type = "gravity", .cost = 1}, {.type = "directions", .weight = 2, .cost = 1}};
+  plan.objective.cost = 3;
+  const auto other = [](unsigned step, unsigned place, double gravity, double directions, std::string why) {
+    return PlanAlternative{step,
+                           place,
+                           {{.type = "gravity", .cost = gravity, .reason = std::move(why)},
+                            {.type = "directions", .weight = 2, .cost = directions}}};
+  };
+  plan.objective.alternatives = {other(0, 0, 2, 4, ""), other(2, 4, 3, 1, "'lid' must be held"), other(3, 1, 1, 1, ""),
+                                 other(4, 1, 2, 0, "")};
+  EXPECT_EQ(other_place_words(plan, 0, true), "");
+  EXPECT_EQ(other_place_words(plan, 1, true), "after step 4 it would cost 2 more: gravity 2 more ('lid' must be held)");
+  EXPECT_EQ(other_place_words(plan, 1, false),
+            "before step " + std::to_string(n - 3) + " it would cost 2 more: gravity 2 more ('lid' must be held)");
+  EXPECT_EQ(other_place_words(plan, 2, true), "before step 1 it would cost as much");
+  EXPECT_EQ(other_place_words(plan, 2, false), "after step " + std::to_string(n) + " it would cost as much");
+  EXPECT_EQ(other_place_words(plan, 3, true), "before step 1 it would cost 1 less: gravity 1 more, directions 2 less");
+  EXPECT_TRUE(order_words(plan, 1, true).ends_with("; " + other_place_words(plan, 1, true)));
+  const std::string first = "the order that was found first would cost 10: gravity 1 more, directions 6 more";
+  EXPECT_EQ(first_order_words(plan.objective), first);
+  EXPECT_EQ(cost_words(plan, false).back(), first);
+}
+
 TEST(OrderWords, AChangeNamesTheChecksThatSayOtherwise) {
   PlanObjective before, now;
   EXPECT_EQ(cost_change_words(before, now), "");

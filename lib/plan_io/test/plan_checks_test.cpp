@@ -67,6 +67,8 @@ TEST(PlanChecks, AreReadAsTheyWereWritten) {
     for (auto n = rng.below(3); n > 0; --n) v.notes.push_back({"k", "t\n\"", kData[rng.below(std::size(kData))]});
     if (rng.below(2)) v.certificate = PlanCertificate{"stands", {"peg", "hole"}, {}, true, 0.5, {{"x", {1, 2}}}, "why"};
     if (rng.below(2)) plan.objective.checks[0].plan = v;
+    if (rng.below(2)) plan.objective.alternatives.push_back({0, 0, {v}});
+    if (rng.below(2)) plan.objective.alternatives.push_back({1, 2, {v}});
     const std::string text = to_json(plan);
     const Plan read = plan_from_json(text, "plan.json");
     EXPECT_EQ(to_json(read), text);
@@ -74,6 +76,12 @@ TEST(PlanChecks, AreReadAsTheyWereWritten) {
     EXPECT_EQ(read.objective.up, plan.objective.up);
     EXPECT_EQ(read.objective.checks[0].parameters, plan.objective.checks[0].parameters);
     EXPECT_TRUE(read.objective.checks[0].require);
+    ASSERT_EQ(read.objective.alternatives.size(), plan.objective.alternatives.size());
+    for (std::size_t k = 0; k < read.objective.alternatives.size(); ++k) {
+      const PlanAlternative &a = plan.objective.alternatives[k], &b = read.objective.alternatives[k];
+      EXPECT_EQ(std::pair(a.step, a.place), std::pair(b.step, b.place));
+      EXPECT_EQ(a.checks.at(0).cost, b.checks.at(0).cost);
+    }
     for (std::size_t k = 0; k < 2; ++k) {
       const PlanVerdict &a = plan.disassembly[k].checks[0], &b = read.disassembly[k].checks[0];
       EXPECT_EQ(a.type, b.type);
@@ -116,7 +124,7 @@ TEST(PlanChecks, WhatIsNoObjectIsNoData) {
 }
 
 TEST(PlanChecks, WrongOnesAreNamedWithTheirPlace) {
-  const std::string text = to_json(judged_plan());
+  std::string text = to_json(judged_plan());
   const auto expect = [&](const std::string& from, const std::string& to, const std::string& message) {
     std::string changed = text;
     ASSERT_NE(changed.find(from), std::string::npos) << from;
@@ -135,6 +143,13 @@ TEST(PlanChecks, WrongOnesAreNamedWithTheirPlace) {
   expect("\"cost\": 0.5", "\"cost\": -1", "/disassembly/0/checks/0/cost: expected a number >= 0");
   expect("\"up\": [0, 0, 1]", "\"up\": [0, 0, 2]", "/objective/up: expected a vector of length 1");
   expect("\"kind\": \"hold\"", "\"kind\": \"\"", "/disassembly/0/checks/0/notes/0/kind");
+  Plan plan = judged_plan();
+  plan.objective.alternatives = {{.step = 2, .place = 1, .checks = {{.type = "acme.hold", .weight = 2, .cost = 7}}}};
+  text = to_json(plan);
+  for (const char* place : {"2", "0", "3"})
+    expect("\"place\": 1", "\"place\": " + std::string(place),
+           "/objective/alternatives/0: expected the numbers of two");
+  expect("\"cost\": 7", "\"cost\": -7", "/objective/alternatives/0/checks/0/cost: expected a number >= 0");
 }
 
 TEST(PlanChecks, WithoutAnObjectiveThereIsNothing) {

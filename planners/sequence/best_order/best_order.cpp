@@ -109,7 +109,7 @@ class Rewriting {
 
   /// `kept`: what the plan that is kept so far costs, if that is not this one.
   void run(SequenceResult& result, std::optional<double> kept = std::nullopt) {
-    const double before = kept ? *kept : order::cost_of(plan_, query_, context_);
+    const double before = kept ? *kept : order::cost_of(plan_, query_, context_, &by_check_);
     any_order_ = kept.has_value();
     std::vector<Block> blocks = order::blocks_of(plan_, scene_);
     constexpr int kRounds = 4;  // a refusal of the verifier is known in the next one
@@ -154,7 +154,7 @@ class Rewriting {
     if (group == query_.start.end()) return;
     const bool forced =
         std::any_of(plan_.begin(), plan_.end(), [](const Removal& r) { return r.attempt->forced != nullptr; });
-    const double before = solved && !forced ? order::cost_of(plan_, query_, context_) : kForbidden;
+    const double before = solved && !forced ? order::cost_of(plan_, query_, context_, &by_check_) : kForbidden;
     const order::StepsToTarget planned = order::steps_to_target(plan_, query_);
     Segment segment(scene_, *group, planned.steps, Segment::ToTarget{});
     constexpr int kRounds = 16;  // a refusal of the verifier is known in the next one
@@ -166,6 +166,14 @@ class Rewriting {
     if (after_ < kForbidden || (before < kForbidden && planned.whole))
       result.least_cost = std::min({bound_, before, after_});
     count(result, before);
+    if (has_replaced()) state_first_order(result);
+  }
+
+  /// Is another order recorded than the one that this was made with?
+  bool has_replaced() const { return after_ < kForbidden; }
+  /// What the order that this was made with costs, by check; for the engine, which writes it into the plan.
+  void state_first_order(SequenceResult& result) const {
+    for (std::size_t i = 0; i < by_check_.size(); ++i) result.counts["first_order." + std::to_string(i)] = by_check_[i];
   }
 
  private:
@@ -299,6 +307,7 @@ class Rewriting {
   Effort effort_, sweeps_;
   OrderScene scene_;
   std::uint64_t spent_ = 0;
+  std::vector<double> by_check_;  // what plan_ costs; empty: not known, or it is refused
   double bound_ = 0, after_ = kForbidden;
   bool bounded_ = true, worth_it_ = false, complete_ = false;
   bool any_order_ = false;  // also that of plan_ is worth recording
@@ -308,6 +317,7 @@ class Rewriting {
 void improve(const BestOrderParameters& params, Rewriting& rewriting, const SequenceQuery& query, PathOracle& oracle,
              Keeper& keeper, RunContext& context, SequenceResult& result) {
   rewriting.run(result);
+  if (rewriting.has_replaced()) rewriting.state_first_order(result);
   if (context.should_stop() || params.effort == 0) return;
   const double kept = rewriting.kept_cost();
   if (!(kept > kSame)) return;
@@ -315,7 +325,9 @@ void improve(const BestOrderParameters& params, Rewriting& rewriting, const Sequ
   if (other.empty()) return;
   BestOrderParameters half = params;
   half.effort /= 2;
-  Rewriting(half, query, oracle, keeper, context, std::move(other)).run(result, kept);
+  Rewriting around(half, query, oracle, keeper, context, std::move(other));
+  around.run(result, kept);
+  if (around.has_replaced()) rewriting.state_first_order(result);
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ namespace {
 /// Sum of what `ask` says of the steps as assembly operations. `up`: overrides that of the steps.
 template <class Ask>
 double sum_of(const std::vector<Removal>& plan, const SequenceQuery& query, const std::optional<Eigen::Vector3d>& up,
-              const RunContext& context, Ask ask) {
+              const RunContext& context, Ask ask, std::vector<double>* by_check = nullptr) {
   Disassembly done(query.assembly.parts.size(), query.start);
   std::deque<Operation> operations;
   for (const Removal& removal : plan) {
@@ -99,15 +99,23 @@ double sum_of(const std::vector<Removal>& plan, const SequenceQuery& query, cons
   for (std::size_t k = 0; k < operations.size(); ++k)
     questions.push_back(operations[k].question(k == 0 ? nullptr : &alone[k - 1]));
   double sum = 0;
+  const std::vector<ObjectiveItem>& items = query.objective.items;
+  if (by_check != nullptr) by_check->assign(items.size(), 0);
   try {
     for (const StepQuestion& question : questions) {
       const ObjectiveVerdict verdict = ask(question);
+      if (verdict.refused && by_check != nullptr) by_check->clear();
       if (verdict.refused) return kForbidden;
       sum += verdict.cost;
+      for (std::size_t i = 0; by_check != nullptr && i < items.size(); ++i) (*by_check)[i] += verdict.verdicts[i].cost;
     }
     const std::vector<StepQuestion> all(questions.begin(), questions.end());
-    for (const ObjectiveItem& item : query.objective.items)
-      if (item.check->traits().judges_plan) sum += item.weight * item.check->judge_plan(all, context).cost;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (!items[i].check->traits().judges_plan) continue;
+      const double cost = items[i].check->judge_plan(all, context).cost;
+      sum += items[i].weight * cost;
+      if (by_check != nullptr) (*by_check)[i] += cost;
+    }
   } catch (const std::exception& e) {
     throw CheckFailed(e.what());
   }
@@ -116,9 +124,11 @@ double sum_of(const std::vector<Removal>& plan, const SequenceQuery& query, cons
 
 }  // namespace
 
-double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, const RunContext& context) {
-  return sum_of(plan, query, std::nullopt, context,
-                [&](const StepQuestion& question) { return query.objective.judge(question, context); });
+double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, const RunContext& context,
+               std::vector<double>* by_check) {
+  return sum_of(
+      plan, query, std::nullopt, context,
+      [&](const StepQuestion& question) { return query.objective.judge(question, context); }, by_check);
 }
 
 double estimate_of(const std::vector<Removal>& plan, const SequenceQuery& query, const Eigen::Vector3d& up,

@@ -35,8 +35,9 @@ struct StepsToTarget {
 };
 StepsToTarget steps_to_target(const std::vector<Removal>& plan, const SequenceQuery& query);
 
-/// Cost of a plan, as the engine judges it.
-double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, const RunContext& context);
+/// Cost of a plan, as the engine judges it. `by_check`: without the weights, in the order of the objective.
+double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, const RunContext& context,
+               std::vector<double>* by_check = nullptr);
 /// The same by estimates, and with the whole lying with `up` (unit) upwards all the time.
 double estimate_of(const std::vector<Removal>& plan, const SequenceQuery& query, const Eigen::Vector3d& up,
                    const RunContext& context);

@@ -2,6 +2,7 @@
 
 #include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/job_list.h"
+#include "dismantle/plan_io/order_words.h"
 #include "dismantle/plan_io/step_numbers.h"
 #include "dismantle/plan_io/summary.h"
 #include "json/json_text.h"
@@ -84,6 +85,7 @@ std::string explain_json(const Explanation& e) {
     }
     for (const PlanVerdict& verdict : plan.disassembly.at(s.step - 1).checks)
       for (const StepNote& note : verdict.notes) one["notes"].push_back(note.text);
+    if (const std::string other = other_place_words(plan, s.step - 1, true); !other.empty()) one["elsewhere"] = other;
     steps.push_back(std::move(one));
   }
   for (const LeftReason& reason : e.left) left.push_back(reason_json(plan, reason));

@@ -5,6 +5,7 @@
 
 #include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/job_list.h"
+#include "dismantle/plan_io/order_words.h"
 #include "dismantle/plan_io/step_numbers.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/text_columns.h"
@@ -129,8 +130,12 @@ std::string steps_text(const Explanation& e, const TextUnit& unit) {
       out += fmt::format("needed {} {} first: what {} took out was in its path\n",
                          step.after.size() == 1 ? "step" : "steps", earlier_text(e, step.after),
                          step.after.size() == 1 ? "it" : "they");
+    if (const std::string other = other_place_words(*e.plan, step.step - 1, true); !other.empty())
+      out += fmt::format("{:>5}  {}\n", "", other);
     out += notes_text(done);
   }
+  if (const std::string first = first_order_words(e.plan->objective); !first.empty())
+    out += fmt::format("this order costs {:.3g}; {}\n", e.plan->objective.cost, first);
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/exports.h"
 #include "dismantle/plan_io/motion_words.h"
+#include "dismantle/plan_io/order_words.h"
 #include "dismantle/plan_io/step_numbers.h"
 #include "dismantle/plan_io/step_runs.h"
 #include "dismantle/plan_io/summary.h"
@@ -40,13 +41,14 @@ void add_new(std::vector<Value>& to, const std::vector<Value>& values) {
     if (std::ranges::find(to, value) == to.end()) to.push_back(value);
 }
 
-/// Costs, refusals and notes of the checks; the same in several steps once.
-std::string judged_cell(std::span<const PlanStep> steps) {
+/// Costs, refusals and notes of the checks, and what other places would cost; the same in several steps once.
+std::string judged_cell(const Plan& plan, std::span<const PlanStep> steps) {
   std::vector<std::string> lines;
   for (const PlanStep& step : steps) {
     add_new(lines, cost_lines(step.checks));
     for (const PlanVerdict& v : step.checks)
       for (const StepNote& note : v.notes) add_new(lines, {fmt::format("{} ({})", note.text, note.kind)});
+    if (const std::string other = other_place_words(plan, step.step - 1, true); !other.empty()) add_new(lines, {other});
   }
   std::string out;
   for (const std::string& line : lines) out += (out.empty() ? "" : "<br>") + markdown_text(line);
@@ -175,7 +177,7 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame, const Guid
                          step.layer > 0 ? steps_list(all.after) : "not recorded",
                          all.contacts.empty() ? "-" : markdown_text(text::joined(all.contacts)),
                          forced ? fmt::format(" {} |", cuts.empty() ? "-" : cuts) : "",
-                         judged ? " " + judged_cell(steps) + " |" : "");
+                         judged ? " " + judged_cell(plan, steps) + " |" : "");
     }
     out +=
         "\nSteps have their numbers in the disassembly; in the assembly, which is the same backwards, they have those "

@@ -113,10 +113,17 @@ void fields(auto& v, Is<PlanObjectiveItem> auto& item) {
   v("plan", item.plan, if_set);
 }
 
+void fields(auto& v, Is<PlanAlternative> auto& a) {
+  v("step", a.step, when(a.step > 0));
+  v("place", a.place, when(a.step > 0));
+  v("checks", a.checks);
+}
+
 void fields(auto& v, Is<PlanObjective> auto& o) {
   v("up", o.up, required, unit_vector);
   v("cost", o.cost, required, from_zero);
   v("least_cost", o.least_cost, if_set, from_zero);
+  v("alternatives", o.alternatives, if_set);
   v("checks", o.checks);
 }
 

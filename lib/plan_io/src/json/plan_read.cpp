@@ -1,6 +1,7 @@
 // plan.json -> Plan: strict, every problem is reported with its location in the file.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -74,6 +75,17 @@ void check(const Place& place, const Plan& plan) {
       if (all[i].forced) certificate(*all[i].forced, at.at(i).at("forced"));
     }
   };
+  for (std::size_t i = 0; i < plan.objective.alternatives.size(); ++i) {
+    const PlanAlternative& other = plan.objective.alternatives[i];
+    const Place at = place.at("objective").at("alternatives").at(i);
+    const std::size_t n = plan.disassembly.size();
+    if (other.step > n || other.place > n || (other.step > 0) != (other.place > 0) ||
+        (other.step > 0 && other.step == other.place))
+      at.fail("expected the numbers of two steps of the disassembly, or none");
+    const bool same =
+        std::ranges::equal(other.checks, plan.objective.checks, {}, &PlanVerdict::type, &PlanObjectiveItem::type);
+    if (!same) at.at("checks").fail("expected the checks of the objective");
+  }
   steps(plan.disassembly, place.at("disassembly"));
   steps(plan.assembly_steps, place.at("assembly_steps"));
   for (std::size_t i = 0; i < plan.unsolved.size(); ++i) certificate(plan.unsolved[i], place.at("unsolved").at(i));
