@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t kDearest = 5;  // steps that are looked at
 constexpr std::size_t kReach = 8;    // places on each side of a step
+constexpr std::size_t kMost = 1500;  // steps of a plan: each order is made anew, which grows with their square
 /// Judged operations, for checks with estimates: their judgement is expensive. One for this many steps of the plan, and
 /// those of two neighbours that change places.
 constexpr std::size_t kStepsPerJudged = 4, kLeastJudged = 6;
@@ -295,7 +296,8 @@ bool was_judged(const Plan& plan) {
 void add_other_places(Plan& plan, const Disassembly& done, const std::vector<std::vector<std::size_t>>& needed,
                       const Assembly& assembly, const Objective& objective, const Constraints& constraints,
                       const RunContext& context) {
-  if (objective.empty() || needed.size() < done.steps().size() || !was_judged(plan)) return;
+  const std::size_t steps = done.steps().size();
+  if (objective.empty() || steps > kMost || needed.size() < steps || !was_judged(plan)) return;
   for (PlanAlternative& one : OtherPlaces(plan, done, needed, assembly, objective, constraints, context).found())
     plan.objective.alternatives.push_back(std::move(one));
 }
