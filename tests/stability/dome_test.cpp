@@ -13,8 +13,8 @@ namespace {
 
 // A dome of 74 parts, as drawn, with friction 0.4. Each block above the second ring falls although all below is there
 // and held; what is missing or loose there holds no more. In each order one such block is the first; when the next one
-// comes, it is held, and so is the new one: two hands at least. (A bound of three would be wrong: a column of blocks
-// stands when its last one is held. The order that is found takes three: tests/cli/stability_test.py.)
+// comes, it is held, and so is the new one: two hands at least. (Three is not shown so: a column of blocks stands
+// when its last one is held. The plan states this bound, and takes three: tests/cli/stability_test.py.)
 TEST(Dome, NeedsTwoHandsInAnyOrder) {
   const samples::Model model =
       samples::make_model("dome", {{"rings", std::int64_t{6}}, {"segments", std::int64_t{12}}});

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <variant>
 
 #include "dismantle/engine/judgement.h"
 #include "dismantle/engine/run.h"
+#include "dismantle/statics/hands_bound.h"
 #include "dismantle/statics/model.h"
 #include "dismantle/statics/step_proof.h"
 
@@ -96,6 +98,21 @@ std::string problem_of(const PlanVerdict& verdict, const StepQuestion& question,
   return "";
 }
 
+/// Empty: the proof of the hands that any order takes holds, and it is what the plan states.
+std::string problem_of_whole(const PlanVerdict& verdict, const Disassembly& done, const Assembly& assembly,
+                             const Eigen::Vector3d& up, const statics::BuiltPiles& piles) {
+  std::optional<double> stated;
+  for (const StepNote& note : verdict.notes)
+    if (note.kind == "gravity.hands") stated = nlohmann::json::parse(note.data).at("hands_at_least").get<double>();
+  if (!verdict.certificate) return stated ? "how many hands any order takes is stated without a proof" : "";
+  if (stated != 2) return "it proves that any order takes two hands, and the plan states something else";
+  std::vector<Operation> operations;
+  for (std::size_t k = done.steps().size(); k-- > 0;) operations.push_back(operation_of(done, k, assembly, up));
+  std::vector<StepQuestion> questions;
+  for (const Operation& operation : operations) questions.push_back(operation.question());
+  return statics::check_least_hands(piles, questions, verdict.certificate->numbers);
+}
+
 }  // namespace
 
 void check_hold_proofs(PlanCheck& check, const Plan& plan, const Assembly& assembly, const RunContext& context) {
@@ -110,6 +127,22 @@ void check_hold_proofs(PlanCheck& check, const Plan& plan, const Assembly& assem
     const Disassembly done = disassembly_of(plan, assembly);
     const std::size_t count = done.steps().size();
     std::size_t proofs = 0;
+    const auto refuse = [&](unsigned step, const std::string& wrong) {
+      check.valid = check.complete = false;
+      check.problems.push_back({step, fmt::format("'{}': its proof does not hold: {}", item.type, wrong)});
+    };
+    const auto readable = [](const auto& problem) -> std::string {
+      try {
+        return problem();
+      } catch (const nlohmann::json::exception& e) {
+        return fmt::format("the data of its note cannot be read: {}", e.what());
+      }
+    };
+    if (item.plan && !context.should_stop())
+      if (const std::string wrong =
+              readable([&] { return problem_of_whole(*item.plan, done, assembly, objective.up, piles); });
+          !wrong.empty())
+        refuse(0, wrong);
     for (std::size_t k = count; k-- > 0 && !context.should_stop();) {  // in the order of assembly
       const PlanStep& step = plan.disassembly.at(k);
       const PlanVerdict& verdict = step.checks.at(c);
@@ -119,15 +152,9 @@ void check_hold_proofs(PlanCheck& check, const Plan& plan, const Assembly& assem
       const Operation operation = operation_of(done, k, assembly, objective.up),
                       earlier = operation_of(done, first ? k : k + 1, assembly, objective.up);
       const StepQuestion before = earlier.question();
-      std::string wrong;
-      try {
-        wrong = problem_of(verdict, operation.question(first ? nullptr : &before), piles);
-      } catch (const nlohmann::json::exception& e) {
-        wrong = fmt::format("the data of its note cannot be read: {}", e.what());
-      }
-      if (wrong.empty()) continue;
-      check.valid = check.complete = false;
-      check.problems.push_back({step.step, fmt::format("'{}': its proof does not hold: {}", item.type, wrong)});
+      const std::string wrong =
+          readable([&] { return problem_of(verdict, operation.question(first ? nullptr : &before), piles); });
+      if (!wrong.empty()) refuse(step.step, wrong);
     }
     context.log(LogLevel::info, fmt::format("{} proofs of holds checked", proofs));
   }

@@ -274,10 +274,19 @@ BuiltPile BuiltPiles::pile(std::span<const PlacedPart> parts, const Vec3& up, Ga
       c.b = built.body_of[f.b];
       if (c.a != c.b) built.pile.contacts.push_back(std::move(c));
     }
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const PlacedPart& p : parts) lowest = std::min(lowest, height(p, up));
-  if (table) add_table(parts, lowest, up, gaps, built);
+  if (table) add_table(parts, bottom_of(parts, up), up, gaps, built);
   return built;
+}
+
+double BuiltPiles::bottom_of(std::span<const PlacedPart> parts, const Vec3& up) const {
+  double low = std::numeric_limits<double>::infinity();
+  for (const PlacedPart& p : parts) low = std::min(low, height(p, up));
+  return low;
+}
+
+double BuiltPiles::bottom(std::span<const PlacedPart> parts, const Vec3& up) const {
+  const std::lock_guard lock(mutex_);
+  return bottom_of(parts, up);
 }
 
 void BuiltPiles::press(BuiltPile& built, std::span<const PlacedPart> parts, std::span<const PlacedPart> moving,

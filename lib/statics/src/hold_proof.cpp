@@ -72,14 +72,29 @@ void add_hold_proof(const HoldProof& proof, const Pile& pile, const std::string&
   for (std::size_t i = 0; i < rest.bodies.size(); ++i)
     if (!rest.bodies[i].fixed) add_motion(proof.displacement[i], displacement);
   auto& falls = numbers[state + ".falls"];
-  for (const Motions& motion : proof.falls) {
-    falls.push_back(static_cast<double>(std::count_if(motion.begin(), motion.end(), moves)));
-    for (std::size_t i = 0; i < motion.size(); ++i)
-      if (moves(motion[i])) {
-        falls.push_back(static_cast<double>(i));
-        add_motion(motion[i], falls);
-      }
+  for (const Motions& motion : proof.falls) add_fall(motion, falls);
+}
+
+void add_fall(const Motions& motion, std::vector<double>& to) {
+  to.push_back(static_cast<double>(std::count_if(motion.begin(), motion.end(), moves)));
+  for (std::size_t i = 0; i < motion.size(); ++i)
+    if (moves(motion[i])) {
+      to.push_back(static_cast<double>(i));
+      add_motion(motion[i], to);
+    }
+}
+
+std::optional<Motions> fall_at(const std::vector<double>& from, std::size_t& at, std::size_t bodies) {
+  if (at >= from.size()) return std::nullopt;
+  const auto moving = index_in(from[at++], bodies + 1);
+  if (!moving || *moving == 0 || at + *moving * (kPerBody + 1) > from.size()) return std::nullopt;
+  Motions motion(bodies);
+  for (std::uint32_t k = 0; k < *moving; ++k, at += kPerBody + 1) {
+    const auto body = index_in(from[at], bodies);
+    if (!body || moves(motion[*body])) return std::nullopt;
+    motion[*body] = motion_at(from, at + 1);
   }
+  return motion;
 }
 
 std::optional<HoldProof> hold_proof_in(const Numbers& numbers, const std::string& state, const Pile& pile) {
@@ -107,15 +122,9 @@ std::optional<HoldProof> hold_proof_in(const Numbers& numbers, const std::string
   }
   if (next != displacement->size()) return std::nullopt;
   for (std::size_t at = 0; at < falls->size();) {
-    const auto moving = index_in((*falls)[at++], count + 1);
-    if (!moving || *moving == 0 || at + *moving * (kPerBody + 1) > falls->size()) return std::nullopt;
-    Motions motion(count);
-    for (std::uint32_t k = 0; k < *moving; ++k, at += kPerBody + 1) {
-      const auto body = index_in((*falls)[at], count);
-      if (!body || moves(motion[*body])) return std::nullopt;
-      motion[*body] = motion_at(*falls, at + 1);
-    }
-    proof.falls.push_back(std::move(motion));
+    std::optional<Motions> motion = fall_at(*falls, at, count);
+    if (!motion) return std::nullopt;
+    proof.falls.push_back(std::move(*motion));
   }
   return proof;
 }

@@ -1,7 +1,6 @@
 // How many bodies do not stand even if all others are held: the estimate that searches for orders ask for.
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "dismantle/statics/built.h"
@@ -17,10 +16,9 @@ std::size_t BuiltPiles::unsupported(std::span<const PlacedPart> parts, std::span
                                     const Vec3& up) const {
   const std::lock_guard lock(mutex_);
   const std::vector<const PlacedPart*> there = places(parts);
-  double lowest = std::numeric_limits<double>::infinity();
+  const double lowest = bottom_of(parts, up);
   bool all_in_place = true;  // as assembled, relative to each other
   for (const PlacedPart& p : parts) {
-    lowest = std::min(lowest, height(p, up));
     if (!all_in_place || p.pose == parts.front().pose) continue;
     all_in_place = in_place(p, parts.front());
   }
@@ -61,8 +59,7 @@ std::size_t BuiltPiles::unsupported(std::span<const PlacedPart> parts, std::span
     }
     for (const PlacedPart* p : close)
       if (!std::binary_search(body.begin(), body.end(), *p, by_part)) near.push_back(*p);
-    double own = std::numeric_limits<double>::infinity();
-    for (const PlacedPart& p : body) own = std::min(own, height(p, up));
+    const double own = bottom_of(body, up);
     double above = std::max(0.0, own - lowest);
     if (above > touching(Gaps::play) * size_) above = size_;  // far from the table
     count += stands(std::move(body), std::move(near), up, own - above, all_in_place) ? 0 : 1;
@@ -77,15 +74,10 @@ bool BuiltPiles::stands(std::vector<PlacedPart> body, std::vector<PlacedPart> ne
   };
   if (!in_place) return either();
   // The answer is kept. It is found in the frame of the assembly, so that it does not depend on who asks first.
-  const auto bottom = [&] {
-    double low = std::numeric_limits<double>::infinity();
-    for (const PlacedPart& p : body) low = std::min(low, height(p, up));
-    return low;
-  };
   // What stands on the table alone stands next to others: these are held here, and can only help. A base plate is asked
   // about once, not for each set of its hundreds of neighbours.
-  if (!near.empty() && bottom() - table < size_ && stands(body, {}, up, table, true)) return true;
-  const double above = bottom() - table;
+  if (!near.empty() && bottom_of(body, up) - table < size_ && stands(body, {}, up, table, true)) return true;
+  const double above = bottom_of(body, up) - table;
   up = body.front().pose.q.conjugate() * up;
   std::vector<double> key{up.x(), up.y(), up.z(), above};
   for (PlacedPart& p : body) {
@@ -98,7 +90,7 @@ bool BuiltPiles::stands(std::vector<PlacedPart> body, std::vector<PlacedPart> ne
     key.push_back(p.part);
   }
   if (const auto known = alone_.find(key); known != alone_.end()) return known->second;
-  table = bottom() - above;
+  table = bottom_of(body, up) - above;
   return alone_.emplace(std::move(key), either()).first->second;
 }
 

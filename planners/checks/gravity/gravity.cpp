@@ -286,17 +286,58 @@ StepVerdict Gravity::judge(const StepQuestion& question, const RunContext& conte
   return verdict;
 }
 
+/// A lower bound of the hands of any order. Searches ask about many orders of the same units, which have the same one.
+std::shared_ptr<const statics::HandsBound> Gravity::bound_of(std::span<const StepQuestion> operations) const {
+  const std::shared_ptr<Scene> scene = scene_of(operations.front().assembly);
+  std::set<std::vector<double>> key;  // units and orientations
+  const auto add = [&](std::span<const PlacedPart> unit, const Vec3& up) {
+    std::vector<double> parts;
+    for (const PlacedPart& p : joined(unit, {})) parts.push_back(static_cast<double>(p.part));
+    key.insert(std::move(parts));
+    key.insert({-1, up.x(), up.y(), up.z()});
+  };
+  add(operations.front().present, operations.front().up);
+  for (const StepQuestion& q : operations) add(q.moving, q.up);
+  {
+    const std::lock_guard lock(mutex_);
+    if (scene->bound && scene->bound_of == key) return scene->bound;
+  }
+  auto bound = std::make_shared<const statics::HandsBound>(statics::least_hands(*scene->piles, operations));
+  const std::lock_guard lock(mutex_);
+  scene->bound_of = std::move(key);
+  return scene->bound = std::move(bound);
+}
+
 StepVerdict Gravity::judge_plan(std::span<const StepQuestion> operations, const RunContext& /*context*/) const {
   StepVerdict verdict;
+  if (operations.empty()) return verdict;
+  const Assembly& assembly = operations.front().assembly;
   const auto large = std::count_if(operations.begin(), operations.end(), [&](const StepQuestion& q) {
     return q.moving.size() + q.present.size() > static_cast<std::size_t>(params_.most_parts);
   });
-  if (large > 0)
+  if (large > 0) {
     verdict.notes.push_back(
         {"gravity.not_checked",
          fmt::format("In {} of {} steps more than {} parts are there: only the part that is put in was judged, on "
                      "others that do not move.",
                      large, operations.size(), params_.most_parts)});
+    return verdict;
+  }
+  const std::shared_ptr<const statics::HandsBound> bound = bound_of(operations);
+  if (bound->hands < 2) return verdict;
+  std::vector<std::string> names;
+  for (const PartId p : bound->loose) names.push_back(assembly.parts[p].name);
+  verdict.notes.push_back(
+      {"gravity.hands",
+       fmt::format(
+           "Any order of these steps, with the table where it is in the end, takes {} hands or more: each of {} "
+           "parts, such as {}, falls even if the other {} are there and held.",
+           bound->hands, names.size(), quoted(assembly, bound->loose.front()), bound->others),
+       Json{{"hands_at_least", bound->hands}, {"loose", names}}.dump(-1, ' ', false, Json::error_handler_t::replace)});
+  const double gap = scene_of(assembly)->piles->gap(Gaps::play);
+  verdict.certificate = {"gravity", {}, {}, false, gap, bound->numbers, "Any order takes two hands in some step."};
+  for (const PlacedPart& p : joined(operations.back().present, operations.back().moving))
+    verdict.certificate->parts.push_back(p.part);
   return verdict;
 }
 

@@ -6,12 +6,14 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "dismantle/parameters.h"
 #include "dismantle/statics/built.h"
+#include "dismantle/statics/hands_bound.h"
 #include "dismantle/statics/hold_proof.h"
 #include "dismantle/statics/holds.h"
 #include "dismantle/statics/model.h"
@@ -40,7 +42,7 @@ class Gravity final : public StepCheck {
   StepVerdict judge(const StepQuestion& question, const RunContext& context) const override;
   /// The parts after the step that do not stand by themselves if everything else stays.
   StepVerdict estimate(const StepQuestion& question, const RunContext& context) const override;
-  /// Says whether some steps had too many parts.
+  /// Says whether some steps had too many parts, and how many hands any order takes at least.
   StepVerdict judge_plan(std::span<const StepQuestion> operations, const RunContext& context) const override;
 
  private:
@@ -61,6 +63,8 @@ class Gravity final : public StepCheck {
     std::unique_ptr<const statics::BuiltPiles> piles;
     std::map<std::vector<double>, State> known;
     statics::KnownJudgements judgements;
+    std::set<std::vector<double>> bound_of;  // what the bound was asked about last: units and orientations
+    std::shared_ptr<const statics::HandsBound> bound;
   };
   std::shared_ptr<Scene> scene_of(const Assembly& assembly) const;
   static std::string picture_of(const statics::Holds& holds, const statics::BuiltPile& built,
@@ -71,6 +75,7 @@ class Gravity final : public StepCheck {
                 bool table) const;
   static std::optional<Certificate> proof_of(std::span<const PlacedPart> parts, const State& after, const State& during,
                                              const State& turned, double gap);
+  std::shared_ptr<const statics::HandsBound> bound_of(std::span<const StepQuestion> operations) const;
   State while_put_in(Scene& scene, const StepQuestion& question) const;
 
   GravityParameters params_;

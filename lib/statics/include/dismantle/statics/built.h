@@ -53,6 +53,9 @@ class DISMANTLE_API BuiltPiles {
   /// The largest gap that counts as touching, for a part as large as the assembly. Assembly units.
   double gap(Gaps gaps) const { return touching(gaps) * size_; }
 
+  /// The lowest point of `parts` along `up`.
+  double bottom(std::span<const PlacedPart> parts, const Eigen::Vector3d& up) const;
+
   /// Adds to the pile of `parts` what a hand does that presses `moving` onto them: `share` times the weight of `moving`
   /// along `direction`, on the contacts that stop it, or, if there is none, on those that lie along it, by friction.
   void press(BuiltPile& built, std::span<const PlacedPart> parts, std::span<const PlacedPart> moving,
@@ -73,6 +76,7 @@ class DISMANTLE_API BuiltPiles {
   const Neighbour* neighbour(PartId a, PartId b) const;
   const Shape& shape(PartId part) const;
   double height(const PlacedPart& part, const Eigen::Vector3d& up) const;
+  double bottom_of(std::span<const PlacedPart> parts, const Eigen::Vector3d& up) const;
   Body body(const PlacedPart& part) const;
   /// Contacts of a on b; Contact::a and b are not set.
   std::vector<Contact> contacts(const PlacedPart& a, const PlacedPart& b, Gaps gaps) const;

@@ -32,6 +32,10 @@ DISMANTLE_API void add_hold_proof(const HoldProof& proof, const Pile& pile, cons
 /// Reads what add_hold_proof() wrote; none: the numbers are not of this form.
 DISMANTLE_API std::optional<HoldProof> hold_proof_in(const Numbers& numbers, const std::string& state,
                                                      const Pile& pile);
+/// Appends a motion as in "STATE.falls".
+DISMANTLE_API void add_fall(const Motions& motion, std::vector<double>& to);
+/// Reads the motion at `at`, of a pile of so many bodies, and steps behind it. None: there is no such motion.
+DISMANTLE_API std::optional<Motions> fall_at(const std::vector<double>& from, std::size_t& at, std::size_t bodies);
 /// Empty: the pile stands with its holds, and no fewer suffice; otherwise what is wrong.
 DISMANTLE_API std::string check_hold_proof(const Pile& pile, const HoldProof& proof);
 
