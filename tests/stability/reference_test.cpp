@@ -90,8 +90,9 @@ bool is_clear(const Scene& scene, Verdict verdict) {
   return true;
 }
 
-/// In one second, what stands moves by less than 1 % of a block of 1, and what falls by more than 10 %. What is pressed
-/// in moves in the engine, too: it starts without stress.
+/// In one second, what stands moves by less than 1 % of a block of 1, and what falls by more than 10 %; in three, if it
+/// begins slowly. What is pressed in moves in the engine, too: it starts without stress. There less friction may also
+/// hold more: a block of a dome whose neighbours slide inwards is wedged between them, and falls where they do not.
 class Agreement {
  public:
   void judge(const Scene& scene) {
@@ -107,7 +108,10 @@ class Agreement {
     // The engine's pyramids lie outside of the friction cones: these lie inside.
     Scene inside = scene;
     inside.friction /= std::sqrt(2);
-    EXPECT_GT(moved_in_engine(inside, 1), 0.1);
+    constexpr double kMoves = 0.1;
+    if (moved_in_engine(inside, 1) > kMoves) return;
+    if (verdict == Verdict::pressed_in && moved_in_engine(scene, 1) > kMoves) return;
+    EXPECT_GT(moved_in_engine(inside, 3), kMoves);
   }
   int standing = 0, falling = 0;
 };
