@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "best_order/around_largest.h"
+#include "best_order/by_verdict.h"
 #include "best_order/rewrite.h"
 #include "dismantle/part_set.h"
 
@@ -38,6 +39,7 @@ namespace {
 /// Units up to which A* often ends. Beyond, it is for the bound of the cost only.
 constexpr std::size_t kMostForExact = 24;
 /// Of the effort: what the first, wider beam gets for a plan of one segment. Beyond kMostForExact, A* has a tenth.
+constexpr std::uint64_t kPerVerdict = 5;  // estimates, for each step of the plan: a verdict takes longer for more parts
 constexpr double kWider = 2.0 / 3, kOfBeam = kWider * 0.9 / 2;
 
 /// Passes removals on, and keeps them.
@@ -128,6 +130,7 @@ class Rewriting {
       if (complete_ || context_.should_stop()) break;
     }
     bound_ = bound;
+    by_verdicts(blocks, std::min(before, after_));
     if (kept && !(after_ < kForbidden)) return;
     if (bounded_) result.least_cost = std::min(bound_, after_ < kForbidden ? after_ : before);
     count(result, before);
@@ -261,6 +264,16 @@ class Rewriting {
       for (const VariantId v : best.variants) steps.push_back({nullptr, &segment, v});
     }
     return steps;
+  }
+
+  /// Estimates mislead where they do not see what a step leaves to be held: once more, by verdicts.
+  void by_verdicts(std::vector<Block>& blocks, double known) {
+    const bool estimated = std::any_of(query_.objective.items.begin(), query_.objective.items.end(),
+                                       [](const ObjectiveItem& i) { return i.check->traits().estimates; });
+    if (!estimated || !(known > kSame) || context_.should_stop()) return;
+    const std::vector<Step> steps =
+        order::by_verdict(blocks, scene_.ups, known, effort_.left / (kPerVerdict * plan_.size()));
+    if (!steps.empty()) record(steps, known - 2 * kSame);
   }
 
   /// False: a step was refused, and is not proposed again.

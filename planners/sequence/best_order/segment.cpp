@@ -25,6 +25,14 @@ Vector3d insertion_of(const Assembly& assembly, const Removal& removal) {
   return Operation(assembly, answer.attempt.moving, {}, answer.path(), Vector3d::UnitZ()).question().direction;
 }
 
+/// Of a direction of insertion (unit, or zero) and of up: along an axis, and from above.
+double preference_of(const Vector3d& insertion, const Vector3d& up) {
+  if (insertion.isZero()) return 0;
+  const double along = insertion.cwiseAbs().maxCoeff(), upwards = insertion.dot(up);
+  constexpr double kAlong = 0.9998, kSteep = 0.7;  // within 1, and 45, degrees
+  return kPreference * ((along > kAlong ? 0 : 4) + (upwards > kSteep ? 2 : upwards > -kSteep ? 1 : 0));
+}
+
 }  // namespace
 
 bool is_straight(const Path& path) {
@@ -190,7 +198,8 @@ void Segment::add_variants() {
 void Segment::find_bounds() {
   least_.assign(variants_.size(), 0);
   preference_.clear();
-  for (VariantId v = 0; v < variants_.size(); ++v) preference_.push_back(preference_of(v));
+  for (VariantId v = 0; v < variants_.size(); ++v)
+    preference_.push_back(preference_of(motion(v).insertion, up(v).value_or(scene_.query.objective.up)));
   change_ = std::numeric_limits<double>::infinity();
   std::map<std::size_t, VariantId> representatives;
   for (VariantId v = 0; v < variants_.size(); ++v) representatives.try_emplace(class_of_[v], v);

@@ -23,6 +23,8 @@ struct CheckFailed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+constexpr double kPreference = 1e-7;  ///< of a direction, by one degree; far below all costs of checks
+
 /// What all segments of a plan share.
 struct OrderScene {
   const SequenceQuery& query;
@@ -66,6 +68,9 @@ class Segment final : public Problem {
   std::uint64_t classes(VariantId v) const override { return std::uint64_t{1} << class_of_[v]; }
   double change() const override { return change_; }
   bool alike(VariantId a, VariantId b) const override { return class_of_[a] == class_of_[b]; }
+
+  /// Like cost() without a previous variant, with what the checks say instead of their estimates.
+  double verdict(VariantId v, const UnitSet& rest);
 
   /// The whole segment.
   Task task() const;
@@ -116,7 +121,6 @@ class Segment final : public Problem {
     std::unordered_map<CostKey, double, CostHash> known;
   };
 
-  double preference_of(VariantId v) const;
   void prepare();
   void add_kept_units();
   void add_units(const std::vector<const Removal*>& planned);
@@ -129,7 +133,8 @@ class Segment final : public Problem {
   bool is_in_the_way(Move& move, std::size_t unit);
   void extend(Move& move);
   std::size_t memory(const Item& item, VariantId v) const;
-  double judge(const Item& item, VariantId v, const UnitSet& rest, VariantId previous);
+  double judge(const Item& item, VariantId v, const UnitSet& rest, VariantId previous,
+               Objective::Ask ask = &StepCheck::estimate);
   const std::vector<PlacedPart>& present(const UnitSet& rest);
   double length_out(const Move& move, const UnitSet& rest);
 

@@ -6,21 +6,7 @@
 
 namespace dismantle::order {
 
-namespace {
-
 using Eigen::Vector3d;
-
-constexpr double kPreference = 1e-7;  // of a direction, by one degree; far below all costs of checks
-
-}  // namespace
-
-double Segment::preference_of(VariantId v) const {
-  const Vector3d& d = moves_[variants_[v].move].motion.insertion;
-  if (d.isZero()) return 0;
-  const double along = d.cwiseAbs().maxCoeff(), upwards = d.dot(up(v).value_or(scene_.query.objective.up));
-  constexpr double kAlong = 0.9998, kSteep = 0.7;  // within 1, and 45, degrees
-  return kPreference * ((along > kAlong ? 0 : 4) + (upwards > kSteep ? 2 : upwards > -kSteep ? 1 : 0));
-}
 
 double Segment::preference(const std::vector<VariantId>& order) const {
   double sum = 0;
@@ -54,7 +40,16 @@ double Segment::cost(VariantId v, const UnitSet& rest, VariantId previous) {
   return sum;
 }
 
-double Segment::judge(const Item& item, VariantId v, const UnitSet& rest, VariantId previous) {
+double Segment::verdict(VariantId v, const UnitSet& rest) {
+  double sum = cost(v, rest, kNone);
+  for (const Item& item : items_) {
+    if (!item.traits.estimates || !(sum < kForbidden)) continue;
+    sum += item.item->weight * (judge(item, v, rest, kNone, &StepCheck::judge) - judge(item, v, rest, kNone));
+  }
+  return sum;
+}
+
+double Segment::judge(const Item& item, VariantId v, const UnitSet& rest, VariantId previous, Objective::Ask ask) {
   const Move& move = moves_[variants_[v].move];
   const auto moving_of = [&](const Move& m) {
     std::vector<PlacedPart> parts;
@@ -87,7 +82,7 @@ double Segment::judge(const Item& item, VariantId v, const UnitSet& rest, Varian
   try {
     StepVerdict verdict;
     if (previous == kNone) {
-      verdict = item.item->check->estimate(question, scene_.context);
+      verdict = ((*item.item->check).*ask)(question, scene_.context);
     } else {
       const Move& earlier = moves_[variants_[previous].move];
       const std::vector<PlacedPart> put_in = moving_of(earlier);
@@ -100,7 +95,7 @@ double Segment::judge(const Item& item, VariantId v, const UnitSet& rest, Varian
                                 nullptr};
       StepQuestion with = question;
       with.previous = &before;
-      verdict = item.item->check->estimate(with, scene_.context);
+      verdict = ((*item.item->check).*ask)(with, scene_.context);
     }
     if (!(verdict.cost >= 0)) throw CheckFailed("its cost is not a number from 0 on");
     return item.item->require && !verdict.allowed ? kForbidden : verdict.cost;
