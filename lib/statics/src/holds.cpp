@@ -110,6 +110,31 @@ std::vector<Group> moving_groups(const Pile& pile, const Motions& motion) {
   return result;
 }
 
+std::vector<Group> hanging_groups(const Pile& pile) {
+  constexpr double kVertical = 0.05;  // sine of the angle of a contact to the vertical
+  const std::size_t count = pile.bodies.size();
+  std::vector<bool> carried(count);
+  for (std::size_t i = 0; i < count; ++i) carried[i] = pile.bodies[i].fixed;
+  for (bool more = true; more;) {
+    more = false;
+    for (const Contact& c : pile.contacts) {
+      const double up = -c.normal.dot(pile.down);  // on a
+      if (!carried[c.a] && carried[c.b] && (c.bonded || up > kVertical)) carried[c.a] = more = true;
+      if (!carried[c.b] && carried[c.a] && (c.bonded || up < -kVertical)) carried[c.b] = more = true;
+    }
+  }
+  DisjointSets sets(count);
+  for (const Contact& c : pile.contacts)
+    if (!carried[c.a] && !carried[c.b]) sets.join(c.a, c.b);
+  std::map<std::uint32_t, Group> groups;
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (!carried[i]) groups[sets.root(i)].push_back(i);
+  std::vector<Group> result;
+  for (auto& [root, group] : groups)
+    if (group.size() > 1) result.push_back(std::move(group));
+  return result;
+}
+
 namespace {
 
 class Search {
@@ -123,6 +148,7 @@ class Search {
       if (!pile_.bodies[i].fixed)
         if (Judgement found = alone({i}, false); found.verdict != Verdict::stands)
           result_.groups.push_back({{i}, std::move(found.motion)});
+    if (by_forces_) add_wedged();
     for (int round = 0; round < kRounds && !stopped(); ++round) {
       std::vector<Group> groups;
       for (const HoldGroup& g : result_.groups) groups.push_back(g.bodies);
@@ -187,6 +213,18 @@ class Search {
       if (Motions own = restricted(motion, g); check_fall(pile_, own).empty())
         parts.push_back({std::move(g), std::move(own)});
     return parts;
+  }
+
+  /// Bodies that stand only because somebody pressed them together.
+  void add_wedged() {
+    for (Group& group : hanging_groups(pile_)) {
+      const bool met = std::ranges::any_of(result_.groups, [&](const HoldGroup& g) {
+        return std::ranges::all_of(g.bodies, [&](std::uint32_t i) { return contains(group, i); });
+      });
+      if (met || stopped()) continue;
+      if (Judgement found = alone(group, false); found.verdict != Verdict::stands)
+        result_.groups.push_back({std::move(group), std::move(found.motion)});
+    }
   }
 
   /// A group of which no body can be left out; halves are tried before single bodies. What falls stays so: only falling

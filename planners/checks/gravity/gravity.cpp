@@ -155,7 +155,7 @@ Gravity::State Gravity::at_rest(Scene& scene, const Assembly& assembly, std::spa
   const auto balanced = [&](Gaps gaps) {
     const statics::Pile pile = scene.piles->pile(parts, up, gaps, table).pile;
     statics::Judgement found = statics::judge_forces(pile);
-    if (found.verdict != statics::Verdict::stands) return false;
+    if (found.verdict != statics::Verdict::stands || !statics::hanging_groups(pile).empty()) return false;
     state.gaps = gaps;
     statics::add_hold_proof({{}, std::move(found.displacement), {}}, pile, "", state.numbers);
     return true;

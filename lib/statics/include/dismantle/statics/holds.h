@@ -45,13 +45,17 @@ DISMANTLE_API Holds least_holds(const Pile& pile, const std::function<bool()>& s
                                 KnownJudgements* known = nullptr);
 
 /// The same where a pile counts as standing if forces in equilibrium exist (judge_forces()) and each body stands by
-/// itself, in the sense of judge(), when the others do not move. Faster; it takes several bodies that are wedged
-/// together for standing, but no single one.
+/// itself, in the sense of judge(), when the others do not move, and so does each of the hanging_groups(). Faster; it
+/// may take several bodies that are wedged together along slopes for standing.
 DISMANTLE_API Holds least_holds_by_forces(const Pile& pile, const std::function<bool()>& stop = {},
                                           KnownJudgements* known = nullptr);
 
 /// The bodies that move, in groups that touch.
 DISMANTLE_API std::vector<std::vector<std::uint32_t>> moving_groups(const Pile& pile, const Motions& motion);
+
+/// Groups of two or more bodies that touch and that nothing pushes up but they themselves: no chain of contacts that
+/// are not vertical leads to them from what is fixed. They may only be wedged together.
+DISMANTLE_API std::vector<std::vector<std::uint32_t>> hanging_groups(const Pile& pile);
 
 /// A smallest set that meets every group; the same one for the same groups.
 DISMANTLE_API std::vector<std::uint32_t> minimum_hitting_set(const std::vector<std::vector<std::uint32_t>>& groups);
