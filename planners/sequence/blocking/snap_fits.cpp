@@ -86,8 +86,11 @@ double SnapFits::deepest_snap(PartId part, PartId other) const {
   };
   const double most = std::min(params_.snap_share * std::min(diagonal(part), diagonal(other)),
                                std::max(half_wall(part), half_wall(other)));
-  // Two parts alone may be a puzzle, or a thread. What cuts in by twice of what it does when assembled is pressed in.
-  return state_.assembly().parts.size() > 2 ? most : std::min(most, state_.assembly().initial_overlap(part, other));
+  if (state_.assembly().parts.size() > 2) return most;
+  // Two parts alone may be a puzzle, or a thread. What cuts in by twice of what it does when assembled is pressed in;
+  // what is deeper than a snap when assembled is cast in.
+  const double overlap = state_.assembly().initial_overlap(part, other);
+  return overlap < most ? overlap : 0;
 }
 
 /// Along the directions with the fewest blockers, which are those of the mating feature: studs, axles, clips.

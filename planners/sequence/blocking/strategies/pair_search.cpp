@@ -3,6 +3,11 @@
 #include <algorithm>
 
 namespace dismantle::blocking {
+namespace {
+
+constexpr unsigned kFirstDepth = 2;
+
+}  // namespace
 
 /// Waits for the rounds of other groups, which are cheaper. Several pairs take turns with limited searches.
 Result PairSearch::apply(GroupState& group) {
@@ -33,6 +38,12 @@ bool PairSearch::search(GroupState& group) {
   Subassemblies open;
   std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(open),
                [&](SubassemblyId s) { return history_.last(s) == nullptr || history_.reached_depth_limit(s); });
+  // Either part may be far easier to move than the other: both come before a search without a limit.
+  if (depth == 0 && group.pair_depth < kFirstDepth) {
+    group.pair_depth = kFirstDepth;
+    if (searcher_.search_each(group, open, kFirstDepth)) return true;
+    if (state_.stop()) return false;
+  }
   if (searcher_.search_each(group, open, depth)) return true;
   if (state_.stop()) return false;
   group.waiting = history_.waiting_of(candidates);

@@ -32,7 +32,7 @@ Assembly cased_pairs(int count) {
 
 TEST(BlockingWithProvers, EachOfSeveralPairsIsProvedInseparable) {
   RunResult r = take_apart(cased_pairs(3), 2);
-  EXPECT_EQ(r.outcome, Outcome::exhausted);
+  EXPECT_EQ(r.outcome, Outcome::infeasible);
   EXPECT_EQ(r.plan.disassembly.size(), 2u) << "the pairs themselves part";
   ASSERT_EQ(r.plan.unsolved.size(), 6u);
   for (const auto& u : r.plan.unsolved) EXPECT_NE(u.message.find("as rigid bodies"), std::string::npos) << u.message;
@@ -78,7 +78,7 @@ TEST(BlockingWithProvers, AfterAllSearchesTwoOfNoKnownShapeAreProvedInseparable)
       EXPECT_EQ(r.outcome, Outcome::solved);
       continue;
     }
-    EXPECT_EQ(r.outcome, Outcome::exhausted);
+    EXPECT_EQ(r.outcome, Outcome::infeasible);
     EXPECT_GT(r.counts.attempts, 0) << "the proof spares no search";
     ASSERT_EQ(r.plan.unsolved.size(), 2u);
     for (const auto& u : r.plan.unsolved) {

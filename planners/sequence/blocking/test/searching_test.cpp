@@ -60,5 +60,32 @@ TEST(BlockingSearches, EachMayResumeTheLastOfThePart) {
   EXPECT_GT(again, 50U);
 }
 
+/// Either part of a pair may be far easier to move than the other: neither is searched for without a limit before both
+/// were searched for to a small depth.
+TEST(BlockingSearches, OfAPairBothPartsComeBeforeASearchWithoutALimit) {
+  FakeMachine machine(2);
+  machine.before[0] = {1};
+  machine.before[1] = {0};
+  FakeOracle oracle(machine);
+  Notes notes;
+  RunContext context = seeded(1);
+  const Assembly assembly = machine.assembly();
+  Blocking planner(BlockingParameters{});
+  const Constraints constraints;
+  const Objective objective;
+  planner.plan({assembly, whole_assembly(assembly), constraints, objective}, oracle, notes, context);
+  std::map<PartId, unsigned> limited;
+  bool unlimited = false;
+  for (const Attempt& asked : oracle.questions) {
+    if (asked.max_depth == 0) {
+      unlimited = true;
+      EXPECT_EQ(limited.size(), 2U);
+    } else if (asked.max_depth > 1) {
+      limited[asked.moving[0].part] = asked.max_depth;
+    }
+  }
+  EXPECT_TRUE(unlimited);
+}
+
 }  // namespace
 }  // namespace dismantle
