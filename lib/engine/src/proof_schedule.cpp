@@ -31,6 +31,9 @@ bool is_pair(const Attempt& attempt) { return attempt.moving.size() == 1 && atte
 constexpr unsigned kDepthOfHolders = 2;
 constexpr std::size_t kMostHolders = 2;
 constexpr double kSmallSnap = 4;  // tolerances
+// Multiples of the tolerance that a proof is first tried for. It says more, and its cells are larger, so it is found
+// sooner: what holds two parts is as large as the parts are, however fine the tolerance is.
+constexpr double kCoarse[] = {100, 10};
 
 bool found_nothing(Outcome o) { return o == Outcome::depth_limit || o == Outcome::exhausted || o == Outcome::timeout; }
 
@@ -116,6 +119,10 @@ const Certificate* ProofSchedule::prove(const SeparationQuestion& question, cons
   if (key.parts.size() < 2 || key.parts.back() >= assembly_.parts.size() || !(key.share > 0) || key.share > 1 ||
       std::adjacent_find(key.parts.begin(), key.parts.end()) != key.parts.end())
     throw std::invalid_argument("a question whether parts can be separated needs two distinct parts of the assembly");
+  return answer_to(key, context);
+}
+
+const Certificate* ProofSchedule::answer_to(const SeparationQuestion& key, const RunContext& context) {
   if (std::none_of(provers_.begin(), provers_.end(),
                    [&](const Prover& p) { return asks(p, key.effort, false, key.parts.size()); }))
     return nullptr;
@@ -124,7 +131,9 @@ const Certificate* ProofSchedule::prove(const SeparationQuestion& question, cons
     const std::scoped_lock lock(mutex_);
     entry = &answers_[key];
   }
-  SeparationQuery query{assembly_, {{key.parts.front(), Pose{}}}, {}, tolerance_, key.share, memo_};
+  SeparationQuery query{
+      assembly_, {{key.parts.front(), Pose{}}}, {}, std::max(key.share, 1.0) * tolerance_, std::min(key.share, 1.0),
+      memo_};
   for (std::size_t i = 1; i < key.parts.size(); ++i) query.fixed.push_back({key.parts[i], Pose{}});
   const Answer* answer = entry->get(context, [&] { return ask(query, key.effort, false, context); });
   return answer != nullptr && *answer ? &**answer : nullptr;
@@ -195,9 +204,9 @@ std::vector<SearchPause> ProofSchedule::during(const Attempt& attempt, const Run
       options_.high_effort_steps > std::max(options_.low_effort_steps, options_.medium_effort_steps))
     pauses.push_back({static_cast<std::uint64_t>(options_.high_effort_steps),
                       [this, &attempt, &context](const std::vector<PartId>&) {
-                        const PartId a = attempt.moving.front().part, b = attempt.fixed.front().part;
-                        const bool provable = prove_reduced(a, b, context) != nullptr;
-                        return provable ? prove_pair(a, b, ProofEffort::high, context) : nullptr;
+                        const Certificate* found =
+                            prove_high(attempt.moving.front().part, attempt.fixed.front().part, context);
+                        return found != nullptr && found->full_tolerance ? found : nullptr;
                       }});
   return pauses;
 }
@@ -235,8 +244,21 @@ const Certificate* ProofSchedule::prove_pair(PartId a, PartId b, ProofEffort mos
 /// through. The cells of a proof of high effort are far smaller than what holds the parts beyond the tolerance:
 /// for a snap of a few tolerances it takes long and fails, and for less than the tolerance it must fail.
 const Certificate* ProofSchedule::prove_reduced(PartId a, PartId b, const RunContext& context) {
-  if (cuts_in_little(assembly_, verifier_, a, b, kSmallSnap * tolerance_, context)) return nullptr;
+  for (const double share : kCoarse) {
+    if (straight_hold(assembly_, verifier_, a, b, kSmallSnap * share * tolerance_, context) != Hold::deep) continue;
+    if (const Certificate* found = answer_to({{std::min(a, b), std::max(a, b)}, ProofEffort::high, share}, context))
+      return found;
+  }
+  if (straight_hold(assembly_, verifier_, a, b, kSmallSnap * tolerance_, context) == Hold::little) return nullptr;
   return prove({{a, b}, ProofEffort::high, options_.reduced_tolerance}, context);
+}
+
+/// For the whole tolerance if it can be proved, else for the reduced one.
+const Certificate* ProofSchedule::prove_high(PartId a, PartId b, const RunContext& context) {
+  const Certificate* found = prove_reduced(a, b, context);
+  if (found == nullptr || found->full_tolerance) return found;
+  const Certificate* whole = prove_pair(a, b, ProofEffort::high, context);
+  return whole != nullptr ? whole : found;
 }
 
 /// Tries expensive proofs only for pairs. Larger sets wait until the sequence planner asks or the run ends, because
@@ -244,9 +266,11 @@ const Certificate* ProofSchedule::prove_reduced(PartId a, PartId b, const RunCon
 const Certificate* ProofSchedule::after(const Attempt& attempt, const PathResult& result, const RunContext& context) {
   if (!found_nothing(result.outcome())) return nullptr;
   if (const Certificate* found = prove_held(attempt, result.blocked_by, context)) return found;
-  if (!is_provable(attempt, options_.low_effort_depth)) return nullptr;
+  // A search that has ended before its limit is as good as one without a limit.
+  const bool ended = is_pair(attempt) && result.outcome() == Outcome::exhausted;
+  if (!is_provable(attempt, ended ? 0 : options_.low_effort_depth)) return nullptr;
   if (const Certificate* found = prove_low(attempt, context)) return found;
-  if (!is_pair(attempt) || !is_provable(attempt, options_.medium_effort_depth)) return nullptr;
+  if (!is_pair(attempt) || !is_provable(attempt, ended ? 0 : options_.medium_effort_depth)) return nullptr;
   const PartId a = attempt.moving.front().part, b = attempt.fixed.front().part;
   if (const Certificate* found = prove_pair(a, b, ProofEffort::medium, context)) return found;
   // A proof of high effort costs most for pairs that can be separated; a deeper search may still find a path.
@@ -264,10 +288,7 @@ const Certificate* ProofSchedule::at_last(PartId part, const std::vector<PartId>
     holder = blocked_by.front();
   if (holder && *holder != part) {
     if (const Certificate* found = prove_pair(part, *holder, ProofEffort::medium, context)) return found;
-    if (const Certificate* reduced = prove_reduced(part, *holder, context)) {
-      const Certificate* whole = prove_pair(part, *holder, ProofEffort::high, context);
-      return whole != nullptr ? whole : reduced;
-    }
+    if (const Certificate* found = prove_high(part, *holder, context)) return found;
   }
   return group.size() > 2 ? prove({group, ProofEffort::high, options_.reduced_tolerance}, context) : nullptr;
 }

@@ -30,9 +30,10 @@ namespace dismantle {
 ///   deeper attempt can follow.
 /// - All: at the end of the run, about each remaining part and the only part that it touched, or about a few together.
 ///
-/// Proofs of high effort try the reduced tolerance first: it takes less time, and what is not proved with it is not
-/// proved with the full tolerance either. Pairs that snap are not asked about. With a deadline, each gets only a share
-/// of the remaining time, because others wait for their turn.
+/// Proofs of high effort try multiples of the tolerance first, where what holds a pair is far deeper, and then the
+/// reduced tolerance: it takes less time than the full one, and what is not proved with it is not proved with the full
+/// tolerance either. Pairs that snap are not asked about. With a deadline, each gets only a share of the remaining time,
+/// because others wait for their turn.
 class ProofSchedule {
  public:
   /// References must outlive the schedule. `context` is used for the trivial proofs, on its threads.
@@ -72,7 +73,9 @@ class ProofSchedule {
   bool asks(const Prover& prover, ProofEffort effort, bool depends_on_poses, std::size_t parts) const;
   std::optional<Answer> ask(const SeparationQuery& query, ProofEffort effort, bool depends_on_poses,
                             const RunContext& context);
+  const Certificate* answer_to(const SeparationQuestion& key, const RunContext& context);
   const Certificate* prove_reduced(PartId a, PartId b, const RunContext& context);
+  const Certificate* prove_high(PartId a, PartId b, const RunContext& context);
   const Certificate* prove_placed(const Attempt& attempt, const RunContext& context);
   const Certificate* prove_low(const Attempt& attempt, const RunContext& context);
   bool is_holdable(const Attempt& attempt) const;

@@ -26,8 +26,8 @@ std::vector<geometry::FaceAxis> axes_of(const Assembly& assembly, PartId a, Part
 
 }  // namespace
 
-bool cuts_in_little(const Assembly& assembly, const Verifier& verifier, PartId a, PartId b, double most,
-                    const RunContext& context) {
+Hold straight_hold(const Assembly& assembly, const Verifier& verifier, PartId a, PartId b, double most,
+                   const RunContext& context) {
   Aabb both = assembly.parts[a].mesh->box();
   both.extend(assembly.parts[b].mesh->box());
   const double far = 1.1 * both.size().norm();  // after so far they are apart
@@ -40,14 +40,14 @@ bool cuts_in_little(const Assembly& assembly, const Verifier& verifier, PartId a
   bool little = false;
   for (const geometry::FaceAxis& axis : axes_of(assembly, a, b))
     for (const double sign : {1.0, -1.0}) {
-      if (context.should_stop()) return false;
+      if (context.should_stop()) return Hold::deep;
       const Path out{{Pose{}}, {Pose{sign * far * axis.axis, Pose{}.q}}};
-      if (verifier.passes(a, b, Pose{}, {out[0][0], out[1][0]})) return false;  // free
+      if (verifier.passes(a, b, Pose{}, {out[0][0], out[1][0]})) return Hold::none;
       if (little) continue;
       const std::optional<MotionDepth> cut = meter.deepest({a}, {{b, Pose{}}}, out, options, context);
       little = !cut || cut->excess() <= most;
     }
-  return little;
+  return little ? Hold::little : Hold::deep;
 }
 
 }  // namespace dismantle

@@ -7,11 +7,17 @@
 
 namespace dismantle {
 
-/// Does a straight motion along an axis of the faces of `a` or `b`, or along a coordinate axis, take the parts apart
-/// as they are assembled and cut in, but by no more than `most` above the initial overlap? By less than the tolerance
-/// counts, too: the verifier then refuses it for another reason, a thin wall or a proof that failed. False for parts
-/// that such a motion takes apart.
-bool cuts_in_little(const Assembly& assembly, const Verifier& verifier, PartId a, PartId b, double most,
-                    const RunContext& context);
+/// What holds two parts, as they are assembled, against straight motions along the axes of their faces and of the
+/// coordinates.
+enum class Hold {
+  none,    ///< one of them takes the parts apart
+  little,  ///< one of them cuts in by no more than was asked about
+  deep     ///< each of them cuts in by more, or the run was stopped
+};
+
+/// `most`: above the initial overlap. What cuts in by less than the tolerance is `little`, too: the verifier then
+/// refuses it for another reason, a thin wall or a proof that failed.
+Hold straight_hold(const Assembly& assembly, const Verifier& verifier, PartId a, PartId b, double most,
+                   const RunContext& context);
 
 }  // namespace dismantle
