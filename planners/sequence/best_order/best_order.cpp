@@ -9,6 +9,7 @@
 
 #include "best_order/around_largest.h"
 #include "best_order/by_verdict.h"
+#include "best_order/keeper.h"
 #include "best_order/rewrite.h"
 #include "dismantle/part_set.h"
 
@@ -17,6 +18,7 @@ namespace dismantle {
 using order::Block;
 using order::CheckFailed;
 using order::Effort;
+using order::Keeper;
 using order::kForbidden;
 using order::kSame;
 using order::OrderScene;
@@ -41,28 +43,6 @@ constexpr std::size_t kMostForExact = 24;
 /// Of the effort: what the first, wider beam gets for a plan of one segment. Beyond kMostForExact, A* has a tenth.
 constexpr std::uint64_t kPerVerdict = 5;  // estimates, for each step of the plan: a verdict takes longer for more parts
 constexpr double kWider = 2.0 / 3, kOfBeam = kWider * 0.9 / 2;
-
-/// Passes removals on, and keeps them.
-class Keeper final : public SequenceObserver {
- public:
-  Keeper(SequenceObserver& observer, std::string planner) : observer_(observer), planner_(std::move(planner)) {}
-  void removed(const Removal& removal, std::size_t parts_left) override {
-    Removal named = removal;
-    if (named.planner.empty()) named.planner = planner_;
-    observer_.removed(named, parts_left);
-    all.emplace_back(std::move(named), parts_left);
-  }
-  bool taken_back(std::size_t count) override {
-    if (count > all.size() || !observer_.taken_back(count)) return false;
-    all.resize(all.size() - count);
-    return true;
-  }
-  std::vector<std::pair<Removal, std::size_t>> all;
-
- private:
-  SequenceObserver& observer_;
-  std::string planner_;  // of removals that name none
-};
 
 blocking::Directions with_used(blocking::Directions directions, const std::vector<Removal>& plan,
                                std::vector<std::size_t>& everywhere) {

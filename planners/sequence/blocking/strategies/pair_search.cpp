@@ -43,6 +43,10 @@ bool PairSearch::search(GroupState& group) {
     group.pair_depth = kFirstDepth;
     if (searcher_.search_each(group, open, kFirstDepth)) return true;
     if (state_.stop()) return false;
+    std::erase_if(open, [&](SubassemblyId s) {  // proved already
+      const auto* last = history_.last(s);
+      return last != nullptr && last->outcome == Outcome::infeasible;
+    });
   }
   if (searcher_.search_each(group, open, depth)) return true;
   if (state_.stop()) return false;
