@@ -217,10 +217,16 @@ class OtherPlaces {
     try {
       if (known == known_.end()) known = known_.emplace(key, Answer{check.estimate(question, context_)}).first;
       if (judged) known->second.judged = check.judge(question, context_);
-    } catch (const std::exception&) {  // what it says of the plan itself is logged by judge()
+    } catch (const std::exception& e) {
+      log_failure(objective_.items[item], e);
       return nullptr;
     }
     return &known->second;
+  }
+
+  /// Such an order is not stated. The plan itself was judged without a failure.
+  void log_failure(const ObjectiveItem& item, const std::exception& e) const {
+    context_.log(LogLevel::warning, fmt::format("step check '{}' threw about another order: {}", item.id, e.what()));
   }
 
   const Disassembly& in_order(const Moved& m) {
@@ -261,7 +267,8 @@ class OtherPlaces {
           if (!add(item.check->judge_plan(WholePlan(in_order(m), assembly_, objective_.up).all(), context_),
                    stated.plan->cost))
             return std::nullopt;
-        } catch (const std::exception&) {
+        } catch (const std::exception& e) {
+          log_failure(item, e);
           return std::nullopt;
         }
       verdict.cost = std::max(0.0, stated.cost + (std::abs(more) > kRounding ? more : 0));

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <utility>
 
 #include "dismantle/executor.h"
@@ -185,23 +186,24 @@ bool ProofSchedule::is_provable(const Attempt& attempt, unsigned depth) const {
 
 std::vector<SearchPause> ProofSchedule::during(const Attempt& attempt, const RunContext& context) {
   std::vector<SearchPause> pauses;
-  const bool low = is_provable(attempt, options_.low_effort_depth);
+  // A search for one part of a pair that has come so far has cost more than the proof, however deep it may go.
+  const bool pair = is_pair(attempt);
+  const bool low = is_provable(attempt, pair ? 0 : options_.low_effort_depth);
+  const bool costly = pair && is_provable(attempt, 0);
   if (low || is_holdable(attempt))
     pauses.push_back({static_cast<std::uint64_t>(options_.low_effort_steps),
                       [this, low, &attempt, &context](const std::vector<PartId>& touched) {
                         const Certificate* found = low ? prove_low(attempt, context) : nullptr;
                         return found != nullptr ? found : prove_held(attempt, touched, context);
                       }});
-  if (is_pair(attempt) && is_provable(attempt, options_.medium_effort_depth) &&
-      options_.medium_effort_steps > options_.low_effort_steps)
+  if (costly && options_.medium_effort_steps > options_.low_effort_steps)
     pauses.push_back({static_cast<std::uint64_t>(options_.medium_effort_steps),
                       [this, &attempt, &context](const std::vector<PartId>&) {
                         return prove_pair(attempt.moving.front().part, attempt.fixed.front().part, ProofEffort::medium,
                                           context);
                       }});
   // The reduced tolerance tells whether there is hope; only a proof for the whole one ends a search.
-  if (is_pair(attempt) && is_provable(attempt, options_.medium_effort_depth) &&
-      options_.high_effort_steps > std::max(options_.low_effort_steps, options_.medium_effort_steps))
+  if (costly && options_.high_effort_steps > std::max(options_.low_effort_steps, options_.medium_effort_steps))
     pauses.push_back({static_cast<std::uint64_t>(options_.high_effort_steps),
                       [this, &attempt, &context](const std::vector<PartId>&) {
                         const Certificate* found =
@@ -240,16 +242,33 @@ const Certificate* ProofSchedule::prove_pair(PartId a, PartId b, ProofEffort mos
   return nullptr;
 }
 
+/// Asked again for the same pair by each search for one of its parts.
+double ProofSchedule::cut_of(PartId a, PartId b, const RunContext& context) {
+  ComputedOnce<double>* entry = nullptr;
+  {
+    const std::scoped_lock lock(mutex_);
+    entry = &cuts_[std::minmax(a, b)];
+  }
+  const double* cut = entry->get(context, [&]() -> std::optional<double> {
+    const double found = straight_cut(assembly_, verifier_, std::min(a, b), std::max(a, b),
+                                      kSmallSnap * kCoarse[0] * tolerance_, context);
+    return context.should_stop() ? std::nullopt : std::optional(found);
+  });
+  return cut == nullptr ? std::numeric_limits<double>::infinity() : *cut;
+}
+
 /// Null also for pairs that a straight motion nearly parts: snap fits, and thin walls, which the verifier lets nothing
 /// through. The cells of a proof of high effort are far smaller than what holds the parts beyond the tolerance:
 /// for a snap of a few tolerances it takes long and fails, and for less than the tolerance it must fail.
 const Certificate* ProofSchedule::prove_reduced(PartId a, PartId b, const RunContext& context) {
+  const double cut = cut_of(a, b, context);
+  const auto is_snap = [&](double share) { return cut <= kSmallSnap * share * tolerance_; };
   for (const double share : kCoarse) {
-    if (straight_hold(assembly_, verifier_, a, b, kSmallSnap * share * tolerance_, context) != Hold::deep) continue;
+    if (is_snap(share)) continue;
     if (const Certificate* found = answer_to({{std::min(a, b), std::max(a, b)}, ProofEffort::high, share}, context))
       return found;
   }
-  if (straight_hold(assembly_, verifier_, a, b, kSmallSnap * tolerance_, context) == Hold::little) return nullptr;
+  if (cut >= 0 && is_snap(1)) return nullptr;
   return prove({{a, b}, ProofEffort::high, options_.reduced_tolerance}, context);
 }
 
@@ -266,16 +285,15 @@ const Certificate* ProofSchedule::prove_high(PartId a, PartId b, const RunContex
 const Certificate* ProofSchedule::after(const Attempt& attempt, const PathResult& result, const RunContext& context) {
   if (!found_nothing(result.outcome())) return nullptr;
   if (const Certificate* found = prove_held(attempt, result.blocked_by, context)) return found;
-  // A search that has ended before its limit is as good as one without a limit.
-  const bool ended = is_pair(attempt) && result.outcome() == Outcome::exhausted;
+  // No deeper search follows one that ended before the limit of its depth, by its budget, too.
+  const bool ended = is_pair(attempt) && result.outcome() != Outcome::depth_limit;
   if (!is_provable(attempt, ended ? 0 : options_.low_effort_depth)) return nullptr;
   if (const Certificate* found = prove_low(attempt, context)) return found;
   if (!is_pair(attempt) || !is_provable(attempt, ended ? 0 : options_.medium_effort_depth)) return nullptr;
   const PartId a = attempt.moving.front().part, b = attempt.fixed.front().part;
   if (const Certificate* found = prove_pair(a, b, ProofEffort::medium, context)) return found;
   // A proof of high effort costs most for pairs that can be separated; a deeper search may still find a path.
-  const bool last = attempt.max_depth == 0 || result.outcome() == Outcome::exhausted;
-  return last ? prove_reduced(a, b, context) : nullptr;
+  return ended || attempt.max_depth == 0 ? prove_reduced(a, b, context) : nullptr;
 }
 
 const Certificate* ProofSchedule::at_last(PartId part, const std::vector<PartId>& blocked_by,

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "attempt_key.h"
@@ -32,8 +33,8 @@ namespace dismantle {
 ///
 /// Proofs of high effort try multiples of the tolerance first, where what holds a pair is far deeper, and then the
 /// reduced tolerance: it takes less time than the full one, and what is not proved with it is not proved with the full
-/// tolerance either. Pairs that snap are not asked about. With a deadline, each gets only a share of the remaining time,
-/// because others wait for their turn.
+/// tolerance either. Pairs that snap are not asked about. With a deadline, each gets only a share of the remaining
+/// time, because others wait for their turn.
 class ProofSchedule {
  public:
   /// References must outlive the schedule. `context` is used for the trivial proofs, on its threads.
@@ -74,6 +75,7 @@ class ProofSchedule {
   std::optional<Answer> ask(const SeparationQuery& query, ProofEffort effort, bool depends_on_poses,
                             const RunContext& context);
   const Certificate* answer_to(const SeparationQuestion& key, const RunContext& context);
+  double cut_of(PartId a, PartId b, const RunContext& context);
   const Certificate* prove_reduced(PartId a, PartId b, const RunContext& context);
   const Certificate* prove_high(PartId a, PartId b, const RunContext& context);
   const Certificate* prove_placed(const Attempt& attempt, const RunContext& context);
@@ -91,6 +93,7 @@ class ProofSchedule {
   std::mutex mutex_;  // guards the maps; answers are computed without it
   std::map<SeparationQuestion, ComputedOnce<Answer>> answers_;
   std::map<SceneDigest, ComputedOnce<Answer>> placed_answers_;
+  std::map<std::pair<PartId, PartId>, ComputedOnce<double>> cuts_;  // as straight_cut()
   std::vector<const Certificate*> locks_;
   std::atomic<std::uint64_t> nanoseconds_{0};
 };

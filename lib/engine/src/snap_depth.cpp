@@ -1,7 +1,9 @@
 #include "snap_depth.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -14,6 +16,7 @@ namespace {
 constexpr std::size_t kPartAxes = 6;    // of the faces of a part, largest area first
 constexpr double kSameAxis = 1 - 1e-6;  // cosine
 constexpr std::uint64_t kPoses = 200;   // measured for one direction
+constexpr double kMore = std::numeric_limits<double>::infinity();
 
 std::vector<geometry::FaceAxis> axes_of(const Assembly& assembly, PartId a, PartId b) {
   std::vector<geometry::FaceAxis> axes;
@@ -26,28 +29,32 @@ std::vector<geometry::FaceAxis> axes_of(const Assembly& assembly, PartId a, Part
 
 }  // namespace
 
-Hold straight_hold(const Assembly& assembly, const Verifier& verifier, PartId a, PartId b, double most,
-                   const RunContext& context) {
+double straight_cut(const Assembly& assembly, const Verifier& verifier, PartId a, PartId b, double most,
+                    const RunContext& context) {
   Aabb both = assembly.parts[a].mesh->box();
   both.extend(assembly.parts[b].mesh->box());
   const double far = 1.1 * both.size().norm();  // after so far they are apart
+  std::vector<Path> ways;
+  for (const geometry::FaceAxis& axis : axes_of(assembly, a, b))
+    for (const double sign : {1.0, -1.0}) ways.push_back({{Pose{}}, {Pose{sign * far * axis.axis, Pose{}.q}}});
+  for (const Path& out : ways) {
+    if (context.should_stop()) return kMore;
+    if (verifier.passes(a, b, Pose{}, {out[0][0], out[1][0]})) return -1;
+  }
   MotionDepthMeter meter(assembly, verifier);
   MotionDepthOptions options;
   options.absolute = verifier.options().max_penetration;
-  options.stop_above = most;
   options.most_poses = kPoses;
   options.known_invalid = true;
-  bool little = false;
-  for (const geometry::FaceAxis& axis : axes_of(assembly, a, b))
-    for (const double sign : {1.0, -1.0}) {
-      if (context.should_stop()) return Hold::deep;
-      const Path out{{Pose{}}, {Pose{sign * far * axis.axis, Pose{}.q}}};
-      if (verifier.passes(a, b, Pose{}, {out[0][0], out[1][0]})) return Hold::none;
-      if (little) continue;
-      const std::optional<MotionDepth> cut = meter.deepest({a}, {{b, Pose{}}}, out, options, context);
-      little = !cut || cut->excess() <= most;
-    }
-  return little ? Hold::little : Hold::deep;
+  double least = kMore;
+  for (const Path& out : ways) {
+    options.stop_above = std::min(most, least);
+    const std::optional<MotionDepth> cut = meter.deepest({a}, {{b, Pose{}}}, out, options, context);
+    if (context.should_stop()) return kMore;
+    if (const double excess = cut ? cut->excess() : 0; excess <= options.stop_above) least = std::min(least, excess);
+    if (least <= options.absolute) break;
+  }
+  return least;
 }
 
 }  // namespace dismantle

@@ -7,17 +7,12 @@
 
 namespace dismantle {
 
-/// What holds two parts, as they are assembled, against straight motions along the axes of their faces and of the
-/// coordinates.
-enum class Hold {
-  none,    ///< one of them takes the parts apart
-  little,  ///< one of them cuts in by no more than was asked about
-  deep     ///< each of them cuts in by more, or the run was stopped
-};
-
-/// `most`: above the initial overlap. What cuts in by less than the tolerance is `little`, too: the verifier then
-/// refuses it for another reason, a thin wall or a proof that failed.
-Hold straight_hold(const Assembly& assembly, const Verifier& verifier, PartId a, PartId b, double most,
-                   const RunContext& context);
+/// How deep two parts, as they are assembled, cut into each other beyond their initial overlap (assembly units), along
+/// the straight motion that takes them apart and cuts in least: along the axes of their faces and of the coordinates.
+/// To within a tolerance. -1: one of these motions is valid. Infinity: each cuts in by more than `most`, or the run was
+/// stopped. What cuts in by less than the tolerance is refused by the verifier for another reason, a thin wall or a
+/// proof that failed.
+double straight_cut(const Assembly& assembly, const Verifier& verifier, PartId a, PartId b, double most,
+                    const RunContext& context);
 
 }  // namespace dismantle

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <vector>
 
 #include "blocking/blocking.h"
 #include "dismantle/testing/fake_oracle.h"
@@ -25,6 +26,25 @@ TEST(BlockingSearches, DoesNotRepeatSearchesWhileTheirBlockersStand) {
   EXPECT_GT(run.result.counts.at("postponed"), 0);
 }
 
+/// What the planner asks about a machine, and how it ends.
+struct Asked {
+  std::vector<Attempt> questions;
+  Outcome outcome;
+};
+
+Asked run_blocking(const FakeMachine& machine) {
+  FakeOracle oracle(machine);
+  Notes notes;
+  RunContext context = seeded(1);
+  const Assembly assembly = machine.assembly();
+  const Constraints constraints;
+  const Objective objective;
+  Blocking planner(BlockingParameters{});
+  const Outcome end =
+      planner.plan({assembly, whole_assembly(assembly), constraints, objective}, oracle, notes, context).outcome;
+  return {oracle.questions, end};
+}
+
 /// The oracle may resume the last search of the same part: that search had at least the same obstacles, or is the same
 /// question.
 TEST(BlockingSearches, EachMayResumeTheLastOfThePart) {
@@ -32,22 +52,15 @@ TEST(BlockingSearches, EachMayResumeTheLastOfThePart) {
   std::size_t again = 0;
   for (int round = 0; round < 20; ++round) {
     const FakeMachine machine = FakeMachine::random(10, 0.3, 3, rng);
-    FakeOracle oracle(machine);
-    Notes notes;
-    RunContext context = seeded(1);
-    const Assembly assembly = machine.assembly();
-    Blocking planner(BlockingParameters{});
-    const Constraints constraints;
-    const Objective objective;
-    const SequenceQuery query{assembly, whole_assembly(assembly), constraints, objective};
-    EXPECT_EQ(planner.plan(query, oracle, notes, context).outcome, Outcome::solved);
+    const Asked run = run_blocking(machine);
+    EXPECT_EQ(run.outcome, Outcome::solved);
     std::map<PartId, std::size_t> last;
-    for (std::size_t k = 0; k < oracle.questions.size(); ++k) {
-      const Attempt& now = oracle.questions[k];
+    for (std::size_t k = 0; k < run.questions.size(); ++k) {
+      const Attempt& now = run.questions[k];
       EXPECT_TRUE(now.resume);
       const PartId part = now.moving[0].part;
       if (const auto before = last.find(part); before != last.end()) {
-        const Attempt& then = oracle.questions[before->second];
+        const Attempt& then = run.questions[before->second];
         EXPECT_LE(now.fixed.size(), then.fixed.size());
         for (const PlacedPart& s : now.fixed)
           EXPECT_TRUE(
@@ -66,17 +79,9 @@ TEST(BlockingSearches, OfAPairBothPartsComeBeforeASearchWithoutALimit) {
   FakeMachine machine(2);
   machine.before[0] = {1};
   machine.before[1] = {0};
-  FakeOracle oracle(machine);
-  Notes notes;
-  RunContext context = seeded(1);
-  const Assembly assembly = machine.assembly();
-  Blocking planner(BlockingParameters{});
-  const Constraints constraints;
-  const Objective objective;
-  planner.plan({assembly, whole_assembly(assembly), constraints, objective}, oracle, notes, context);
   std::map<PartId, unsigned> limited;
   bool unlimited = false;
-  for (const Attempt& asked : oracle.questions) {
+  for (const Attempt& asked : run_blocking(machine).questions) {
     if (asked.max_depth == 0) {
       unlimited = true;
       EXPECT_EQ(limited.size(), 2U);
