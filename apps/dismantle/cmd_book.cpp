@@ -130,15 +130,21 @@ int write_book(const BookCommand& options) {
     how.title = options.title;
     how.on_page = [&](std::size_t page, std::size_t count) {
       if (context.should_stop()) throw Error("stopped");
-      context.progress("drawing", page, count, fmt::format("step {}", page));
+      context.progress("drawing", page, count, fmt::format("page {}", page));
       pages = count;
     };
     return (pdf ? library.pdf : library.html)(plan, assembly, how);
   });
   write_file(output, book);
   console.end_progress();
-  console.text(fmt::format("wrote {}: {} steps\n", output, pages));
-  console.result({{"status", result_word(plan)}, {"steps", pages}, {"book", output}, {"plan", options.plan}});
+  const std::size_t steps = plan.disassembly.size();
+  console.text(
+      fmt::format("wrote {}: {} steps{}\n", output, steps, pages < steps ? fmt::format(" on {} pages", pages) : ""));
+  console.result({{"status", result_word(plan)},
+                  {"steps", steps},
+                  {"step_pages", pages},
+                  {"book", output},
+                  {"plan", options.plan}});
   return kComplete;
 }
 #else

@@ -17,6 +17,7 @@ using Facts = std::vector<std::pair<std::string, std::string>>;  // name, value
 struct BookItem {
   std::size_t number = 0;           ///< from 1
   std::string name;                 ///< common beginning of all names, or the first name, or the product
+  std::string label;                ///< on the pages of steps: the name, or what tells it from items of that name
   std::vector<std::string> names;   ///< of the parts, or of the uses of the product
   std::vector<PlacedPart> picture;  ///< one part, or the bodies of one product
   std::string size;                 ///< of the bounding box, with unit; before it what the part is, if that is known
@@ -40,6 +41,7 @@ struct BookPage {
   std::string chapter;  ///< "Sub-assembly A"
   bool chapter_begins = false;
   std::size_t number = 0, count = 0;                        ///< of the step, of all steps of the plan
+  std::size_t last = 0;                                     ///< number of the last of several equal steps
   std::vector<std::pair<std::size_t, std::string>> moving;  ///< item number, "2 x bolt"
   std::string verb;                                         ///< "Put in", "Take out", "Move aside"
   std::vector<std::string> motions;                         ///< one line per mover
@@ -49,6 +51,9 @@ struct BookPage {
   const BookStep* step = nullptr;
   std::vector<BoxEntry> box;        ///< what the step puts in or takes out
   std::vector<std::size_t> held{};  ///< parts to hold
+
+  /// "3", "3–8"
+  std::string numbers() const;
 };
 
 struct BookContent {

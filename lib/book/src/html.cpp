@@ -131,7 +131,9 @@ std::string step_page(const BookPage& page, const StepPictures& pictures, const 
   std::string out =
       fmt::format("<section class=\"page\" id=\"step-{}\"><div class=\"head\"><span>{}</span><span>{}</span></div>\n",
                   page.number, escaped_markup(page.chapter),
-                  escaped_markup(fmt::format(fmt::runtime(words.label("step {} of {}")), page.number, page.count)));
+                  escaped_markup(fmt::format(fmt::runtime(words.label("step {} of {}")), page.numbers(), page.count)));
+  for (std::size_t other = page.number + 1; other <= page.last; ++other)
+    out += fmt::format("<a id=\"step-{}\"></a>", other);
   std::string what;
   for (const auto& [item, name] : page.moving)
     what += fmt::format("<div class=\"what\">{}{}</div>", badge(item), escaped_markup(name));
@@ -144,8 +146,9 @@ std::string step_page(const BookPage& page, const StepPictures& pictures, const 
   out += fmt::format("<div class=\"step\"><div>{}{}{}</div>\n", box, img(pictures.apart, "the motion of this step"),
                      caption.empty() ? "" : fmt::format("<p class=\"soft\">{}</p>", escaped_markup(caption)));
   out += fmt::format(
-      "<div><div class=\"number\">{}</div><div class=\"do\">{}: {}</div>{}{}", page.number, escaped_markup(page.verb),
-      what, motions + (page.warning.empty() ? "" : "<p class=\"forced\">" + escaped_markup(page.warning) + "</p>"),
+      "<div><div class=\"number\">{}</div><div class=\"do\">{}: {}</div>{}{}", page.numbers(),
+      escaped_markup(page.verb), what,
+      motions + (page.warning.empty() ? "" : "<p class=\"forced\">" + escaped_markup(page.warning) + "</p>"),
       facts_list(page.facts));
   out += fmt::format("<div class=\"after\"><p>{}</p>{}</div></div></div></section>\n",
                      escaped_markup(words.label(disassembly ? "before" : "after")),
@@ -190,8 +193,9 @@ std::string book_html(const Plan& plan, const Assembly& assembly, const BookOpti
         escaped_markup(item.size));
   }
   out += "</div></section>\n" + job_section(content, label("Fasteners and tools"));
+  std::size_t done = 0;
   for (const BookPage& page : content.pages) {
-    options.on_page(page.number, page.count);
+    options.on_page(++done, content.pages.size());
     const StepPictures pictures = illustrator.step(*page.step, options.disassembly, 1, content.numbers, page.held);
     out += step_page(page, pictures, parts_box(page, illustrator), words, options.disassembly);
   }

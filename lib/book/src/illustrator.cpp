@@ -209,6 +209,20 @@ double Illustrator::extent_of(const BookStep& step, bool disassembly) const {
   return all.empty() ? 0 : all.size().norm();
 }
 
+/// Equal parts that move alike are drawn equally far from their places.
+void Illustrator::align(const BookStep& step, Arrangement& arrangement) {
+  std::vector<Eigen::Vector3d> away;
+  double furthest = 0;
+  for (std::size_t m = 0; m < step.movers.size(); ++m) {
+    const BookMover& mover = step.movers[m];
+    const auto at = [&](std::size_t pose) -> Eigen::Vector3d { return mover.poses[pose] * mover.center; };
+    away.push_back(at(arrangement.at_away[m]) - at(arrangement.at_place[m]) + arrangement.further[m]);
+    furthest = std::max(furthest, away.back().norm());
+  }
+  for (std::size_t m = 0; m < away.size(); ++m)
+    if (const double d = away[m].norm(); d > 0) arrangement.further[m] += (furthest / d - 1) * away[m];
+}
+
 /// Away are the ends of the paths, unless a path is long.
 Illustrator::Arrangement Illustrator::arranged(const BookStep& step, bool disassembly) const {
   Arrangement out;
@@ -227,6 +241,7 @@ Illustrator::Arrangement Illustrator::arranged(const BookStep& step, bool disass
     out.at_away.push_back(away);
     out.further.push_back(stretch(mover, away, place, extent));
   }
+  if (!step.joined.empty()) align(step, out);
   out.placed = movers_at(step, out.at_place);
   out.away = movers_at(step, out.at_away);
   for (std::size_t m = 0, p = 0; m < step.movers.size(); ++m)

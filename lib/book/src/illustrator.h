@@ -82,6 +82,7 @@ class Illustrator {
   /// Of all parts, with the movers in their place; input units.
   double extent_of(const BookStep& step, bool disassembly) const;
   Arrangement arranged(const BookStep& step, bool disassembly) const;
+  static void align(const BookStep& step, Arrangement& arrangement);
   /// What stands there, and the movers, which are marked.
   std::vector<DrawnBody> bodies_with(const BookStep& step, const std::vector<PlacedPart>& movers) const;
   Picture draw_apart(const BookStep& step, const Arrangement& arrangement, bool disassembly, const PictureSize& size,

@@ -36,6 +36,7 @@ struct BookStep {
   std::optional<Eigen::Vector3d> up{};  ///< unit; of the assembly while it lies for this step; none: as drawn
   std::vector<DrawnTool> tools{};       ///< on what is put in, at the end of the assembly operation
   bool shifts_only = false;             ///< no part joins or leaves: the parts only move aside
+  std::vector<std::size_t> joined{};    ///< equal steps of the plan that follow and share the page; a mover for each
 };
 
 struct BookChapter {

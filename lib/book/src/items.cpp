@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "dismantle/plan_io/bill_items.h"
+#include "dismantle/plan_io/job_list.h"
 #include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/text_columns.h"
 
@@ -52,7 +53,7 @@ class ItemFinder {
       const auto [it, fresh] = item_of_shape.try_emplace(firsts[i], content_.items.size());
       if (fresh) {
         add_item({{i, Pose{}}});
-        content_.items.back().size = kind_words(assembly_.parts[i].name) + content_.items.back().size;
+        content_.items.back().size = kind_words(assembly_.parts[i].name, ", ") + content_.items.back().size;
       }
       BookItem& item = content_.items[it->second];
       item.names.push_back(assembly_.parts[i].name);
@@ -60,6 +61,7 @@ class ItemFinder {
     }
     for (BookItem& item : content_.items)
       if (item.name.empty()) item.name = common_name(item.names);
+    label_items();
     content_.numbers.assign(assembly_.parts.size(), 0);
     for (const BookItem& item : content_.items)
       for (const PlacedPart& placed : item.picture) content_.numbers[placed.part] = item.number;
@@ -107,18 +109,38 @@ class ItemFinder {
     }
   }
 
-  /// "screw M5x20, "; empty for what is not recognised.
-  std::string kind_words(const std::string& name) const {
+  /// "screw M5x20" and `end`; empty for what is not recognised.
+  std::string kind_words(const std::string& name, const char* end) const {
     for (const PlanPart& part : plan_.assembly.parts)
       if (part.name == name && part.kind && part.kind->kind != "other")
-        return part.kind->kind + (part.kind->size.empty() ? "" : " " + part.kind->size) + ", ";
+        return part.kind->kind + (part.kind->size.empty() ? "" : " " + part.kind->size) + end;
     return {};
+  }
+
+  /// Fasteners are called by their size, too. A name that different items share tells nothing.
+  void label_items() {
+    std::map<std::string, std::string> sizes;  // by part
+    for (const JobFastener& fastener : job_list(plan_).fasteners)
+      for (const std::string& part : fastener.parts) sizes[part] = fastener.size;
+    std::map<std::string, std::size_t> uses;
+    for (const BookItem& item : content_.items) ++uses[item.name];
+    for (BookItem& item : content_.items) {
+      const std::string& first = item.names.front();
+      item.label = item.name;
+      if (uses[item.name] > 1) {
+        const std::string kind = kind_words(first, "");
+        item.label = kind.empty() ? first : kind;
+      } else if (const auto size = sizes.find(first); size != sizes.end() && !size->second.empty()) {
+        if (item.name.find(size->second) == std::string::npos) item.label += " (" + size->second + ")";
+      }
+    }
   }
 
   void add_item(std::vector<PlacedPart> picture) {
     Aabb box;
     for (const PlacedPart& placed : picture) box.extend(assembly_.parts[placed.part].mesh->box());
     content_.items.push_back({content_.items.size() + 1,
+                              {},
                               {},
                               {},
                               std::move(picture),

@@ -335,7 +335,7 @@ void pdf_step(PdfPages& pdf, const BookPage& page, const StepPictures& pictures,
   const double width = style.width - 2 * margin, column = 0.33 * width, large = width - column - 18;
   pdf.text(margin, margin - 14, 0.7 * width, page.chapter, 10.5, style.soft);
   pdf.text(style.width - margin - 96, margin - 14, 96,
-           fmt::format(fmt::runtime(words.label("step {} of {}")), page.number, page.count), 10.5, style.soft);
+           fmt::format(fmt::runtime(words.label("step {} of {}")), page.numbers(), page.count), 10.5, style.soft);
   const double box = pdf_box(pdf, page, illustrator, margin, margin + 8, large);
   pdf.picture(pictures.apart, margin, margin + 8 + box, large, style.height - 2 * margin - 24 - box);
   if (const std::string caption = caption_of(pictures, words); !caption.empty())
@@ -344,7 +344,7 @@ void pdf_step(PdfPages& pdf, const BookPage& page, const StepPictures& pictures,
   const double x = style.width - margin - column, placed_height = 150,
                bottom = style.height - margin - placed_height - 24;
   double y = margin + 6;
-  y += pdf.text(x, y, column, std::to_string(page.number), 36, style.text, true) + 2;
+  y += pdf.text(x, y, column, page.numbers(), 36, style.text, true) + 2;
   y += pdf.text(x, y, column, page.verb + ":", 13, style.text) + 1;
   for (const auto& [item, name] : page.moving) {
     if (y + 16 > bottom) break;
@@ -375,8 +375,9 @@ std::string book_pdf(const Plan& plan, const Assembly& assembly, const BookOptio
   contents_pages(pdf, content, words);
   item_pages(pdf, content, illustrator, words);
   job_pages(pdf, content, words);
+  std::size_t done = 0;
   for (const BookPage& page : content.pages) {
-    options.on_page(page.number, page.count);
+    options.on_page(++done, content.pages.size());
     const StepPictures pictures = illustrator.step(*page.step, options.disassembly, 1.5, content.numbers, page.held);
     pdf_step(pdf, page, pictures, illustrator, words, options.disassembly);
   }

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "dismantle/geometry/congruent_parts.h"
+#include "dismantle/geometry/equal_items.h"
 
 namespace dismantle::checks {
 
@@ -38,26 +40,44 @@ bool IdenticalParts::Shapes::includes(std::span<const PlacedPart> parts, std::ve
   return wanted.empty();
 }
 
-Eigen::Vector3d IdenticalParts::Shapes::seen_from(std::span<const PlacedPart> parts,
-                                                  const Eigen::Vector3d& direction) const {
-  const auto least = std::min_element(parts.begin(), parts.end(), [&](const PlacedPart& a, const PlacedPart& b) {
+const PlacedPart& IdenticalParts::Shapes::least(std::span<const PlacedPart> parts) const {
+  return *std::min_element(parts.begin(), parts.end(), [&](const PlacedPart& a, const PlacedPart& b) {
     return std::pair(first.at(a.part), a.part) < std::pair(first.at(b.part), b.part);
   });
-  return (least->pose.q * pose.at(least->part).q).conjugate() * direction;
+}
+
+bool IdenticalParts::Shapes::same_way(std::span<const PlacedPart> parts, const Eigen::Vector3d& direction,
+                                      std::span<const PlacedPart> others, const Eigen::Vector3d& other) const {
+  if (direction.dot(other) > kSimilarDirection) return true;
+  const PlacedPart &a = least(parts), &b = least(others);
+  if (surface.at(a.part) != surface.at(b.part)) return false;  // no pose takes one to the other
+  const auto seen = [&](const PlacedPart& from, const Eigen::Vector3d& v) -> Eigen::Vector3d {
+    return (from.pose.q * pose.at(from.part).q).conjugate() * v;
+  };
+  return seen(a, direction).dot(seen(b, other)) > kSimilarDirection;
 }
 
 std::shared_ptr<const IdenticalParts::Shapes> IdenticalParts::shapes_of(const Assembly& assembly) const {
-  const auto same = [](const std::shared_ptr<const Mesh>& mesh, const Part& part) { return mesh == part.mesh; };
+  const auto kind_of = [](const Part& part) { return part.kind ? std::string_view(part.kind->kind) : ""; };
+  const auto same = [&](const auto& known, const Part& part) {
+    return known.first == part.mesh && known.second == kind_of(part);
+  };
   const std::lock_guard lock(mutex_);
   if (known_ &&
-      std::equal(known_->meshes.begin(), known_->meshes.end(), assembly.parts.begin(), assembly.parts.end(), same))
+      std::equal(known_->known.begin(), known_->known.end(), assembly.parts.begin(), assembly.parts.end(), same))
     return known_;
   auto shapes = std::make_shared<Shapes>();
-  for (const Part& part : assembly.parts) shapes->meshes.push_back(part.mesh);
-  for (const auto& placement : geometry::find_congruent(assembly.parts)) {
-    shapes->first.push_back(placement.original);
+  std::vector<std::string> kinds;
+  for (const Part& part : assembly.parts) {
+    kinds.emplace_back(kind_of(part));
+    shapes->known.emplace_back(part.mesh, kinds.back());
+  }
+  const std::vector<geometry::ShapePlacement> placements = geometry::find_congruent(assembly.parts);
+  for (const auto& placement : placements) {
+    shapes->surface.push_back(placement.original);
     shapes->pose.push_back(placement.pose);
   }
+  shapes->first = geometry::equal_items(assembly.parts, placements, kinds);
   return known_ = std::move(shapes);
 }
 
@@ -70,9 +90,7 @@ StepVerdict IdenticalParts::judge(const StepQuestion& question, const RunContext
   if (now == shapes->of(question.previous->moving)) {
     const Eigen::Vector3d &direction = question.direction, &before = question.previous->direction;
     if (params_.another_way == 0 || direction.isZero() || before.isZero() ||
-        direction.dot(before) > kSimilarDirection ||
-        shapes->seen_from(question.moving, direction).dot(shapes->seen_from(question.previous->moving, before)) >
-            kSimilarDirection)
+        shapes->same_way(question.moving, direction, question.previous->moving, before))
       return verdict;
     verdict.cost = params_.another_way;
     verdict.reason = fmt::format("'{}' goes in along another direction than the equal part before it", name);

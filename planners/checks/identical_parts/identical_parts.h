@@ -5,6 +5,8 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "dismantle/mesh.h"
@@ -32,17 +34,21 @@ class IdenticalParts final : public StepCheck {
   StepVerdict judge(const StepQuestion& question, const RunContext& context) const override;
 
  private:
-  /// By part of one assembly: the first part of the same shape.
+  /// By part of one assembly.
   struct Shapes {
-    std::vector<std::shared_ptr<const Mesh>> meshes;
-    std::vector<std::size_t> first;
-    std::vector<Pose> pose;  // takes the first part of the shape to this part
+    std::vector<std::pair<std::shared_ptr<const Mesh>, std::string>> known;  // with their kinds
+    std::vector<std::size_t> first;                                          // the first part that is the same item
+    std::vector<std::size_t> surface;                                        // the first part of the same surface
+    std::vector<Pose> pose;                                                  // takes that part to this part
     /// Of these parts, sorted.
     std::vector<std::size_t> of(std::span<const PlacedPart> parts) const;
     /// Is each of `wanted` the shape of a part of its own?
     bool includes(std::span<const PlacedPart> parts, std::vector<std::size_t> wanted) const;
-    /// The direction as seen from the part whose shape comes first.
-    Eigen::Vector3d seen_from(std::span<const PlacedPart> parts, const Eigen::Vector3d& direction) const;
+    /// The part whose item comes first.
+    const PlacedPart& least(std::span<const PlacedPart> parts) const;
+    /// Are the two directions the same, in the world or as seen from the parts?
+    bool same_way(std::span<const PlacedPart> parts, const Eigen::Vector3d& direction,
+                  std::span<const PlacedPart> others, const Eigen::Vector3d& other) const;
   };
   std::shared_ptr<const Shapes> shapes_of(const Assembly& assembly) const;
 

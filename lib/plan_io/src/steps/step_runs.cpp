@@ -9,6 +9,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/geometry/congruent_parts.h"
+#include "dismantle/plan_io/bill_items.h"
 #include "dismantle/plan_io/motion_words.h"
 
 namespace dismantle {
@@ -106,12 +107,12 @@ class Runs {
 PartShapes shapes_of(const Plan& plan, const Assembly& assembly) {
   std::map<std::string, std::size_t> index_of;
   for (std::size_t i = 0; i < assembly.parts.size(); ++i) index_of.emplace(assembly.parts[i].name, i);
-  const std::vector<geometry::ShapePlacement> placements = geometry::find_congruent(assembly.parts);
+  const std::vector<std::size_t> items = bill_items(plan.assembly, assembly, geometry::find_congruent(assembly.parts));
   PartShapes out;
   for (const PlanPart& part : plan.assembly.parts) {
     const auto known = index_of.find(part.name);
     if (known == index_of.end()) throw InputError(part.name, "the plan has a part that the assembly lacks");
-    out.push_back(placements[known->second].original);
+    out.push_back(items[known->second]);
   }
   return out;
 }

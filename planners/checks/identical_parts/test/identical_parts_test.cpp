@@ -99,6 +99,25 @@ TEST(IdenticalParts, MirrorImagesDiffer) {
   EXPECT_EQ(cost_with(mirrored), 0);
 }
 
+// Standard parts that were cut into other triangles are equal parts for people.
+TEST(IdenticalParts, StandardPartsOfOtherTrianglesAreEqual) {
+  Assembly assembly = shapes::assembly_of(
+      {shapes::box({0, 0, 0}, {1, 1, 1}), shapes::tube(1, 2, 0, 4, 48), shapes::tube(1, 2, 0, 4, 64)});
+  const std::vector<PlacedPart> all{{1, Pose{}}, {0, Pose{}}, {2, Pose{}}};
+  const std::span<const PlacedPart> placed(all);
+  const auto cost = [&](const char* kind, const char* other) {
+    assembly.parts[1].kind = PartKind{kind};
+    assembly.parts[2].kind = PartKind{other};
+    const StepQuestion previous{assembly, placed.subspan(1, 1), placed.first(1)};
+    StepQuestion question{assembly, placed.subspan(2, 1), placed.first(2)};
+    question.previous = &previous;
+    return IdenticalParts().judge(question, RunContext{}).cost;
+  };
+  EXPECT_EQ(cost("pin", "pin"), 1);
+  EXPECT_EQ(cost("pin", "spacer"), 0);
+  EXPECT_EQ(cost("other", "other"), 0) << "no standard part";
+}
+
 TEST(IdenticalParts, GroupsAreComparedAsSetsOfShapes) {
   Rng rng(4);
   const Assembly assembly = parts_of("abcba", rng);  // {0, 1} and {3, 4} are equal groups

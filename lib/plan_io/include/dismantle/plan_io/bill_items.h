@@ -11,10 +11,7 @@
 
 namespace dismantle {
 
-/// By part: the first part that is the same item. Parts of one shape (`shapes`, of find_congruent()) are one item; so
-/// are two standard parts of one kind (screws, nuts, washers, bearings...) that only their triangles tell apart: as
-/// long along their axis, of one handedness, and alike in volume, surface and moments of inertia. A kind whose parts
-/// may differ from their mirror images is none of these.
+/// By part: the first part that is the same item: geometry::equal_items() with the kinds that the plan states.
 DISMANTLE_API std::vector<std::size_t> bill_items(const PlanAssembly& plan, const Assembly& assembly,
                                                   const std::vector<geometry::ShapePlacement>& shapes);
 

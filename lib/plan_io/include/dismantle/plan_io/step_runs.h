@@ -18,10 +18,10 @@ struct StepRun {
   std::size_t count = 1;
 };
 
-/// By part of a plan: equal numbers for parts of one shape.
+/// By part of a plan: equal numbers for parts of one shape, or one item of the bill of materials.
 using PartShapes = std::vector<std::size_t>;
 
-/// By their surfaces.
+/// By their surfaces, as bill_items() counts them.
 /// @throws InputError when the plan has a part that the assembly lacks.
 DISMANTLE_API PartShapes shapes_of(const Plan& plan, const Assembly& assembly);
 /// By what the plan says alone: uses of one product are equal. Parts without a product are equal to no other.
