@@ -54,9 +54,10 @@ class Parser {
 
   Document run(const std::string& text) {
     begin("");
-    std::size_t at = 0;
+    const char line_end = text.find('\n') == std::string::npos ? '\r' : '\n';
+    std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
     while (at < text.size()) {
-      const std::size_t end = std::min(text.find('\n', at), text.size());
+      const std::size_t end = std::min(text.find(line_end, at), text.size());
       ++line_;
       read(std::string_view(text).substr(at, end - at));
       at = end + 1;

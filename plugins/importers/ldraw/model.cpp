@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -18,8 +19,7 @@
 namespace dismantle::ldraw {
 namespace {
 
-constexpr double kMillimetres = 0.4;   // one LDraw unit
-constexpr std::size_t kDeepest = 200;  // sub-models in sub-models
+constexpr double kMillimetres = 0.4;  // one LDraw unit
 
 /// LDraw has -Y up; here Z is up.
 Eigen::Vector3d out_of_ldraw(const Eigen::Vector3d& v) { return {v.x(), v.z(), -v.y()}; }
@@ -83,6 +83,8 @@ class Walk {
   }
 
  private:
+  using Lines = std::set<std::pair<std::string_view, std::array<double, 12>>>;  // names and placements
+
   /// Adds all parts of a model; returns their indices.
   std::vector<std::uint32_t> model(const std::string& key, const LdrawFile& file, const Place& place) {
     if (context_.should_stop()) throw Error("stopped while reading LDraw files");
@@ -101,9 +103,10 @@ class Walk {
         finish_step(step, step_parts, place, view);
       }
     };
+    Lines earlier;
     for (std::size_t i = 0; i < file.references.size(); ++i) {
       finish_steps(i);
-      if (is_repeated(file, i)) {
+      if (is_repeated(file.references[i], earlier)) {
         add_repeated(file.references[i], place);
         continue;
       }
@@ -133,6 +136,7 @@ class Walk {
   }
 
   std::vector<std::uint32_t> reference(const Reference& r, const Place& place) {
+    if (++used_ > kMostUses) throw InputError(library_.first(), fmt::format("it has more than {} parts and sub-models", kMostUses));
     Place inner = place;
     inner.placement = place.placement * r.placement;
     inner.inverted = place.inverted != r.inverted;
@@ -152,15 +156,11 @@ class Walk {
   }
 
   /// Is the line written a second time: the same part in the same place, of the same model?
-  bool is_repeated(const LdrawFile& file, std::size_t line) {
-    const Reference& r = file.references[line];
-    const bool repeated =
-        std::any_of(file.references.begin(), file.references.begin() + static_cast<std::ptrdiff_t>(line),
-                    [&](const Reference& earlier) {
-                      return earlier.name == r.name && earlier.placement.linear == r.placement.linear &&
-                             earlier.placement.shift == r.placement.shift;
-                    });
-    if (!repeated) return false;
+  bool is_repeated(const Reference& r, Lines& earlier) {
+    std::array<double, 12> place;
+    Eigen::Map<Eigen::Matrix3d>(place.data()) = r.placement.linear;
+    Eigen::Map<Eigen::Vector3d>(place.data() + 9) = r.placement.shift;
+    if (earlier.emplace(r.name, place).second) return false;
     const std::optional<Found> found = library_.find(r.name);
     return found && is_part(r.name, *found);
   }
@@ -250,6 +250,7 @@ class Walk {
   PartMeshes meshes_;
   Model out_;
   std::set<std::string> open_;
+  std::size_t used_ = 0;
   std::map<std::string, unsigned> uses_, groups_;
 };
 

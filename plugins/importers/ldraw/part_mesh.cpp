@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "dismantle/errors.h"
 #include "dismantle/geometry/mesh_repair.h"
 
 namespace dismantle::ldraw {
@@ -48,6 +49,7 @@ const PartMesh& PartMeshes::of(const std::string& key) {
   const auto known = built_.find(key);
   if (known != built_.end()) return known->second;
   PartMesh part;
+  uses_ = 0;
   collect(key, {}, false, part);
   weld(part.mesh, kAccuracy);
   if (part.problem.empty() && part.mesh.triangles.empty()) part.problem = fmt::format("'{}' has no surface", key);
@@ -65,6 +67,8 @@ void PartMeshes::collect(const std::string& key, const Placement& placement, boo
     out.problem = fmt::format("'{}' refers to itself", key);
     return;
   }
+  if (open_.size() > kDeepest || ++uses_ > kMostUses)
+    out.problem = fmt::format("it uses more than {} files, or files in files more than {} deep", kMostUses, kDeepest);
   add_polygons(*found->file, placement, inverted, out.mesh);
   for (const Reference& r : found->file->references)
     collect(r.name, placement * r.placement, inverted != r.inverted, out);
@@ -75,6 +79,8 @@ std::uint64_t PartMeshes::count(const std::string& key, std::uint64_t limit) {
   if (const auto known = counted_.find(key); known != counted_.end()) return known->second;
   const std::optional<Found> found = library_.find(key);
   if (!found || !open_.insert(key).second) return 0;
+  if (open_.size() > kDeepest)
+    throw InputError(key, fmt::format("this file is used by files in files, more than {} deep", kDeepest));
   std::uint64_t sum = 0;
   for (const Polygon& polygon : found->file->polygons) sum += polygon.corners.size() - 2;
   for (const Reference& r : found->file->references) sum = std::min(limit, sum + count(r.name, limit));

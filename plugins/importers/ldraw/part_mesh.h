@@ -18,6 +18,9 @@ struct PartMesh {
 };
 
 /// Collects surfaces, each part file once.
+/// Files in files, and uses of files by one part or model, which nesting can multiply: far above those of real models.
+inline constexpr std::size_t kDeepest = 200, kMostUses = 1'000'000;
+
 class PartMeshes {
  public:
   explicit PartMeshes(Library& library) : library_(library) {}
@@ -31,6 +34,7 @@ class PartMeshes {
   Library& library_;
   std::map<std::string, PartMesh> built_;
   std::map<std::string, std::uint64_t> counted_;
+  std::size_t uses_ = 0;  // of files, by the part that is built
   std::set<std::string> open_;  // files that are being read: a file that refers to itself is refused
 };
 

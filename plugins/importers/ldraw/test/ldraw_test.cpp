@@ -254,5 +254,40 @@ TEST_F(Ldraw, FilesThatExplodeAreCountedFirst) {
   EXPECT_THROW(read(text), InputError);
 }
 
+/// The text of `levels` files, each of which uses the next one `uses` times; the last one holds `last`.
+std::string nested(const std::string& ending, int levels, int uses, const std::string& last) {
+  std::string out;
+  for (int i = 0; i <= levels; ++i) {
+    out += "0 FILE n" + std::to_string(i) + ending + "\n0 Nested\n";
+    for (int use = 0; i < levels && use < uses; ++use)
+      out += "1 16 " + std::to_string(use) + " 0 0 1 0 0 0 1 0 0 0 1 n" + std::to_string(i + 1) + ending + "\n";
+  }
+  return out + last;
+}
+
+TEST_F(Ldraw, NestingThatMultipliesOrNeverEndsIsRefused) {
+  const std::string use = "0 Model\n1 4 0 0 0 1 0 0 0 1 0 0 0 1 brick.dat\n1 4 0 0 0 1 0 0 0 1 0 0 0 1 n0";
+  const auto refusal = [&](const std::string& text) -> std::string {
+    try {
+      const auto parts = read(text);
+      return parts.size() == 2 ? parts[1].problem : "";
+    } catch (const InputError& e) {
+      return e.what();
+    }
+  };
+  // Neither has triangles, which are counted before.
+  EXPECT_NE(refusal(use + ".ldr\n" + nested(".ldr", 40, 2, "")).find("more than 1000000"), std::string::npos);
+  EXPECT_NE(refusal(use + ".dat\n" + nested(".dat", 40, 2, "")).find("more than 1000000"), std::string::npos);
+  EXPECT_NE(refusal(use + ".dat\n" + nested(".dat", 50'000, 1, box(1, 1, 1))).find("200 deep"), std::string::npos);
+}
+
+TEST_F(Ldraw, ByteOrderMarksAndLineEndsOfOldMacs) {
+  const std::string text = "0 Tower\n1 4 0 0 0 1 0 0 0 1 0 0 0 1 brick.dat\n1 4 0 24 0 1 0 0 0 1 0 0 0 1 brick.dat\n";
+  EXPECT_EQ(read("\xEF\xBB\xBF" + text).size(), 2u);
+  std::string mac = text;
+  std::replace(mac.begin(), mac.end(), '\n', '\r');
+  EXPECT_EQ(read(mac).size(), 2u);
+}
+
 }  // namespace
 }  // namespace dismantle::ldraw
