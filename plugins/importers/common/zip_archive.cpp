@@ -4,6 +4,7 @@
 #include <minizip/unzip.h>
 
 #include <algorithm>
+#include <system_error>
 
 #include "dismantle/errors.h"
 
@@ -23,6 +24,8 @@ std::string expands_too_much(std::uint64_t compressed, std::uint64_t expanded) {
 
 ZipArchive::ZipArchive(const std::filesystem::path& file, const std::string& what)
     : file_(file), handle_(unzOpen64(file.c_str())) {
+  std::error_code ec;
+  size_ = std::filesystem::file_size(file, ec);
   if (handle_ == nullptr) fail(fmt::format("this is no {}, or it is cut off: no zip archive", what));
 }
 
@@ -52,13 +55,18 @@ void ZipArchive::read(const std::string& name, const std::function<void(std::str
   if (!holds(name) || unzGetCurrentFileInfo64(handle_, &info, nullptr, 0, nullptr, 0, nullptr, 0) != UNZ_OK)
     fail(fmt::format("'{}' is not in the archive", name));
   const auto check = [&](std::uint64_t size) {
-    if (const std::string problem = expands_too_much(info.compressed_size, size); !problem.empty())
+    // What the archive says of itself may be wrong.
+    if (const std::string problem = expands_too_much(std::min<std::uint64_t>(info.compressed_size, size_), size);
+        !problem.empty())
       fail(fmt::format("'{}' in the archive {}", name, problem));
   };
   check(info.uncompressed_size);
+  if (info.compression_method != 0 && info.compression_method != Z_DEFLATED)
+    fail(fmt::format("'{}' in the archive is compressed in a way that is not read (method {})", name,
+                     info.compression_method));
   if ((info.flag & 1) != 0) fail(fmt::format("'{}' in the archive is encrypted", name));
   if (unzOpenCurrentFile(handle_) != UNZ_OK)
-    fail(fmt::format("'{}' in the archive cannot be read: its compression is not known", name));
+    fail(fmt::format("'{}' in the archive is damaged: its two headers do not agree", name));
   std::vector<char> block(1 << 16);
   std::uint64_t size = 0;
   int n = 0;
@@ -66,7 +74,8 @@ void ZipArchive::read(const std::string& name, const std::function<void(std::str
     size += static_cast<std::uint64_t>(n);
     expanded_ += static_cast<std::uint64_t>(n);
     check(size);
-    if (expanded_ > kLargest) fail("the files in the archive expand beyond 4 GiB: refused");
+    if (const std::string problem = expands_too_much(size_, expanded_); !problem.empty())
+      fail("the archive " + problem);
     take({block.data(), static_cast<std::size_t>(n)});
   }
   if (n < 0 || unzCloseCurrentFile(handle_) != UNZ_OK)

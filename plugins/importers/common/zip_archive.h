@@ -35,7 +35,7 @@ class ZipArchive {
 
   std::filesystem::path file_;
   void* handle_ = nullptr;
-  std::uint64_t expanded_ = 0;  // bytes, of all that was read
+  std::uint64_t size_ = 0, expanded_ = 0;  // bytes, of the file and of all that was read
 };
 
 }  // namespace dismantle::reader_process

@@ -136,7 +136,8 @@ class Walk {
   }
 
   std::vector<std::uint32_t> reference(const Reference& r, const Place& place) {
-    if (++used_ > kMostUses) throw InputError(library_.first(), fmt::format("it has more than {} parts and sub-models", kMostUses));
+    if (++used_ > kMostUses)
+      throw InputError(library_.first(), fmt::format("it has more than {} parts and sub-models", kMostUses));
     Place inner = place;
     inner.placement = place.placement * r.placement;
     inner.inverted = place.inverted != r.inverted;

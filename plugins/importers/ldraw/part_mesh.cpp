@@ -25,7 +25,8 @@ void add_polygons(const LdrawFile& file, const Placement& placement, bool invert
       mesh.vertices.push_back(placement.linear * corner + placement.shift);
     const bool turned = polygon.clockwise != (inverted != mirrored);
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-      mesh.triangles.push_back(turned ? Triangle{base + a, base + c, base + b} : Triangle{base + a, base + b, base + c});
+      mesh.triangles.push_back(turned ? Triangle{base + a, base + c, base + b}
+                                      : Triangle{base + a, base + b, base + c});
     };
     if (polygon.corners.size() == 3) {
       add(0, 1, 2);
@@ -33,7 +34,8 @@ void add_polygons(const LdrawFile& file, const Placement& placement, bool invert
     }
     // The shorter diagonal: the two triangles of a quadrilateral that is not quite flat differ least.
     const auto length = [&](int a, int b) {
-      return (polygon.corners[static_cast<std::size_t>(a)] - polygon.corners[static_cast<std::size_t>(b)]).squaredNorm();
+      return (polygon.corners[static_cast<std::size_t>(a)] - polygon.corners[static_cast<std::size_t>(b)])
+          .squaredNorm();
     };
     if (length(0, 2) <= length(1, 3)) {
       add(0, 1, 2);

@@ -34,7 +34,7 @@ class PartMeshes {
   Library& library_;
   std::map<std::string, PartMesh> built_;
   std::map<std::string, std::uint64_t> counted_;
-  std::size_t uses_ = 0;  // of files, by the part that is built
+  std::size_t uses_ = 0;        // of files, by the part that is built
   std::set<std::string> open_;  // files that are being read: a file that refers to itself is refused
 };
 

@@ -1,5 +1,6 @@
 #include "gltf_container.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -13,12 +14,20 @@
 
 namespace dismantle::mesh_files {
 
-GltfContainer read_gltf_container(const std::filesystem::path& file) {
+GltfContainer read_gltf_container(const std::filesystem::path& file, bool with_binary) {
   std::ifstream in(file, std::ios::binary);
   std::error_code ec;
-  const auto size = std::filesystem::file_size(file, ec);
+  const std::uint64_t whole = std::filesystem::file_size(file, ec);
   if (!in || ec) throw InputError(file.string(), "cannot be opened");
+  char head[20] = {};  // of the file, and of the first chunk
+  in.read(head, sizeof head);
+  std::uint32_t first = 0;
+  std::memcpy(&first, head + 12, sizeof first);
+  const bool less = !with_binary && std::string_view(head, 4) == "glTF";
+  const std::uint64_t size = less ? std::min<std::uint64_t>(whole, sizeof head + std::uint64_t{first}) : whole;
   std::string bytes(size, '\0');
+  in.clear();
+  in.seekg(0);
   if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) throw InputError(file.string(), "cannot be read");
   GltfContainer out;
   const auto word = [&](std::size_t at) {
@@ -68,7 +77,7 @@ std::filesystem::path file_of_uri(const std::string& uri, const std::filesystem:
 std::vector<std::filesystem::path> buffers_of_gltf(const std::filesystem::path& file) {
   std::vector<std::filesystem::path> found;
   try {
-    const nlohmann::json json = read_gltf_container(file).json;
+    const nlohmann::json json = read_gltf_container(file, false).json;
     if (!json.is_object() || !json.contains("buffers") || !json["buffers"].is_array()) return found;
     for (const auto& buffer : json["buffers"]) {
       if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;

@@ -14,7 +14,7 @@ struct GltfContainer {
 };
 
 /// @throws InputError when the file cannot be read, or is a GLB file that is cut off.
-GltfContainer read_gltf_container(const std::filesystem::path& file);
+GltfContainer read_gltf_container(const std::filesystem::path& file, bool with_binary = true);
 
 /// The file that a URI of `file` names; percent-encoded characters are decoded. Not checked.
 std::filesystem::path file_of_uri(const std::string& uri, const std::filesystem::path& file);

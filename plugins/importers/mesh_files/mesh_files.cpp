@@ -68,7 +68,8 @@ std::optional<std::uint64_t> MeshFiles::count_triangles(const std::filesystem::p
 }
 
 std::vector<std::filesystem::path> MeshFiles::referenced_files(const std::filesystem::path& file) const {
-  return ending(file) == "gltf" ? buffers_of_gltf(file) : std::vector<std::filesystem::path>();
+  const std::string e = ending(file);
+  return e == "gltf" || e == "glb" ? buffers_of_gltf(file) : std::vector<std::filesystem::path>();
 }
 
 std::vector<RawPart> MeshFiles::read(const std::filesystem::path& file, const RunContext& context) {

@@ -1,6 +1,8 @@
 // Wavefront OBJ in double precision.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -26,7 +28,8 @@ struct Section {
 
 class ObjReader {
  public:
-  ObjReader(const std::filesystem::path& file, const RunContext& context) : file_(file), lines_(file, context) {}
+  ObjReader(const std::filesystem::path& file, const RunContext& context)
+      : file_(file), context_(context), lines_(file, context) {}
 
   std::vector<RawPart> read() {
     std::string_view line;
@@ -37,16 +40,34 @@ class ObjReader {
       }
       statement(line);
     }
+    end_object();
     if (objects_.empty() && groups_.empty()) {
       if (vertices_.empty()) throw InputError(file_.string(), "no vertices: this is no OBJ mesh, or it is cut off");
       throw InputError(file_.string(), fmt::format("{} vertices but no faces (points, lines and free-form surfaces are "
                                                    "not read)",
                                                    vertices_.size()));
     }
-    return parts();
+    std::vector<RawPart> all = parts();
+    std::ranges::move(absent_, std::back_inserter(all));
+    return all;
   }
 
  private:
+  /// Names an object that has nothing but what is not read.
+  void end_object() {
+    if (surfaces_ && object_open_)
+      context_.log(LogLevel::warning,
+                   fmt::format("'{}' has free-form surfaces, which are not read, beside its faces", object_));
+    if ((surfaces_ || drawn_) && !object_open_) {
+      RawPart& part = absent_.emplace_back();
+      part.name = object_;
+      part.file = file_.filename().string();
+      part.problem = surfaces_ ? "it has free-form surfaces, which are not read, and no faces" : "only points or lines";
+      part.by_meaning = !surfaces_;
+    }
+    surfaces_ = drawn_ = false;
+  }
+
   void join_lines(std::string_view line) {
     joined_.clear();
     bool more = true;
@@ -68,10 +89,11 @@ class ObjReader {
       for (int k = 0; k < 3; ++k) v[k] = take_coordinate(line, lines_);
       if (vertices_.size() >= 0xfffffffeu) lines_.fail("too many vertices");
       vertices_.push_back(v);
-    } else if (keyword == "f") {
+    } else if (keyword == "f" || keyword == "fo") {
       face(line);
     } else if (keyword == "o") {
       // Two objects with one name are two parts.
+      end_object();
       object_ = std::string(trimmed(line));
       object_open_ = false;
     } else if (keyword == "g") {
@@ -80,8 +102,14 @@ class ObjReader {
       material_ = std::string(trimmed(line));
     } else if (keyword == "mtllib") {
       libraries_.emplace_back(trimmed(line));
+    } else if (keyword == "p" || keyword == "l") {
+      drawn_ = true;
+    } else if (keyword == "surf" || keyword == "bzp" || keyword == "bsp" || keyword == "cdp") {
+      surfaces_ = true;
+    } else if (keyword == "call") {
+      lines_.fail("geometry in another file ('call') is not read");
     }
-    // Everything else is geometry without a mesh.
+    // Everything else is no geometry of its own.
   }
 
   std::uint32_t index(std::string_view word) const {
@@ -199,6 +227,7 @@ class ObjReader {
   }
 
   std::filesystem::path file_;
+  RunContext context_;
   LineReader lines_;
   std::string joined_;
   std::vector<Eigen::Vector3d> vertices_, points_;
@@ -206,6 +235,8 @@ class ObjReader {
   std::string object_, group_, material_;
   std::vector<std::string> libraries_;
   bool object_open_ = false;
+  bool surfaces_ = false, drawn_ = false;  // the object has free-form surfaces; points or lines
+  std::vector<RawPart> absent_;
   std::vector<Section> objects_, groups_;
   std::vector<std::size_t> object_of_group_;
   std::unordered_map<std::string, std::size_t> groups_of_object_;

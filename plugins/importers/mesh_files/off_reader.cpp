@@ -74,6 +74,7 @@ std::vector<RawPart> read_off(const std::filesystem::path& file, const RunContex
       for (std::size_t k = 2; k < corners.size(); ++k)
         part.mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
   }
+  if (next_filled(lines, line)) lines.fail(fmt::format("it goes on behind the {} faces that it states", faces));
   if (part.mesh.triangles.empty()) throw InputError(file.string(), "no faces");
   std::vector<RawPart> parts;
   parts.push_back(std::move(part));

@@ -85,6 +85,10 @@ class PlyReader {
         row(element, part.mesh);
       }
     }
+    where_.clear();
+    for (char c; in_.get(c);)
+      if (c != '\0' && trimmed({&c, 1}) != "" && c != '\n')
+        fail("it goes on behind the elements that its header states: their numbers are wrong");
     if (part.mesh.vertices.empty()) fail("no vertices");
     for (std::vector<std::uint32_t>& corners : std::exchange(before_vertices_, {})) {
       corners_ = std::move(corners);

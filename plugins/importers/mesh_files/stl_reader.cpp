@@ -23,6 +23,7 @@ struct BinaryHeader {
   bool says_solid = false;      ///< starts like a text file (many binary files also do)
   bool printable = false;       ///< nothing but text at its beginning
   bool utf16 = false;           ///< starts with the byte order mark of UTF-16
+  bool zeros = false;           ///< bytes of zero at its beginning, which text has not
   bool fits() const { return size >= kHeader && size == kHeader + kRecord * std::uint64_t{triangles}; }
 };
 
@@ -43,6 +44,7 @@ std::optional<BinaryHeader> header_of(const std::filesystem::path& file) {
   header.printable = std::ranges::all_of(start, [](unsigned char c) {
     return c >= 0x20 ? c != 0x7F : std::string_view("\t\n\v\f\r").find(static_cast<char>(c)) != std::string_view::npos;
   });
+  header.zeros = start.find('\0') != start.npos;
   header.utf16 = start.starts_with("\xFF\xFE") || start.starts_with("\xFE\xFF");
   if (start.starts_with("\xEF\xBB\xBF")) start.remove_prefix(3);
   start.remove_prefix(std::min(start.find_first_not_of(" \t\n\v\f\r"), start.size()));
@@ -51,7 +53,17 @@ std::optional<BinaryHeader> header_of(const std::filesystem::path& file) {
   return header;
 }
 
-bool is_text(const BinaryHeader& header) { return header.says_solid && !header.fits(); }
+bool is_text(const BinaryHeader& header) { return header.says_solid && !header.zeros && !header.fits(); }
+
+/// Whether what follows the stated triangles is more of them, or another file.
+bool goes_on(std::ifstream& in, std::uint64_t behind, std::uint64_t rest) {
+  if (rest % kRecord == 0) return rest > 0;
+  unsigned char count[4] = {};
+  in.seekg(static_cast<std::streamoff>(behind + kHeader - sizeof count));
+  if (!in.read(reinterpret_cast<char*>(count), sizeof count)) return false;
+  const std::uint64_t more = little_endian(count);
+  return more > 0 && kHeader + kRecord * more <= rest;
+}
 
 std::vector<RawPart> read_binary(const std::filesystem::path& file, const BinaryHeader& header,
                                  const RunContext& context) {
@@ -66,12 +78,17 @@ std::vector<RawPart> read_binary(const std::filesystem::path& file, const Binary
   if (header.size < expected)
     throw InputError(name, fmt::format("cut off: its header states {} triangles, which take {} bytes, but it has {}",
                                        header.triangles, expected, header.size));
+  std::ifstream in(file, std::ios::binary);
+  if (goes_on(in, expected, header.size - expected))
+    throw InputError(name, fmt::format("its header states {} triangles, and there are more behind them: the number is "
+                                       "wrong, or several files were joined; export it again",
+                                       header.triangles));
   if (header.triangles == 0) throw InputError(name, "no triangles");
   RawPart part;
   part.file = file.filename().string();
   part.mesh.vertices.reserve(std::size_t{3} * header.triangles);
   part.mesh.triangles.reserve(header.triangles);
-  std::ifstream in(file, std::ios::binary);
+  in.clear();
   in.seekg(kHeader);
   unsigned char record[kRecord];
   for (std::uint32_t t = 0; t < header.triangles; ++t) {
@@ -141,8 +158,10 @@ std::vector<RawPart> read_text(const std::filesystem::path& file, const RunConte
     }
   }
   if (in_solid) lines.fail("the file ends inside a solid: it is cut off");
-  std::erase_if(parts, [](const RawPart& p) { return p.mesh.triangles.empty(); });
-  if (parts.empty()) throw InputError(file.string(), "no triangles");
+  std::size_t empty = 0;
+  for (RawPart& part : parts)
+    if (part.mesh.triangles.empty()) part.problem = "it has no triangles", ++empty;
+  if (empty == parts.size()) throw InputError(file.string(), "no triangles");
   return parts;
 }
 

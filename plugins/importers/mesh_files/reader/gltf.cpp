@@ -173,7 +173,9 @@ class NodeReader {
       pose(here["skin"], mesh, part.mesh);
       add(std::move(part), Eigen::Matrix4d::Identity());
     } else if (const Json* instances = extension(here, "EXT_mesh_gpu_instancing")) {
-      for (const Eigen::Matrix4d& instance : instances_of(instances->at("attributes"))) add(part, to_world * instance);
+      const std::vector<Eigen::Matrix4d> places = instances_of(instances->at("attributes"));
+      if (places.empty()) leave_out(part.name, parents, "it has no instances", false);
+      for (const Eigen::Matrix4d& instance : places) add(part, to_world * instance);
     } else {
       add(std::move(part), to_world);
     }
@@ -237,6 +239,8 @@ class NodeReader {
   std::vector<Eigen::Matrix4d> instances_of(const Json& attributes) {
     std::map<std::string, GltfNumbers> read;
     std::optional<std::size_t> count;
+    for (const auto& [name, accessor] : attributes.items())  // others than these say how many there are, too
+      if (!count) count = document_.numbers(accessor).count;
     for (const auto& [name, components] :
          {std::pair{"TRANSLATION", 3U}, std::pair{"ROTATION", 4U}, std::pair{"SCALE", 3U}}) {
       if (!attributes.contains(name)) continue;
@@ -258,6 +262,9 @@ class NodeReader {
   }
 
   void add(RawPart part, const Eigen::Matrix4d& to_world) {
+    const Eigen::Matrix3d linear = to_world.topLeftCorner<3, 3>();
+    if (linear.isZero(0)) return leave_out(part.name, part.parents, "it is hidden by a scale of zero", true);
+    if (linear.determinant() == 0) return leave_out(part.name, part.parents, "its place flattens it", false);
     part.mesh = without_unused(part.mesh);
     total_ += part.mesh.triangles.size();
     if (total_ > reader_process::kInputLimits.triangles || out_.parts.size() >= reader_process::kInputLimits.instances)

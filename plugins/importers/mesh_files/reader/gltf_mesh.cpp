@@ -60,6 +60,8 @@ class PrimitiveReader {
   }
 
   void add_triangles(const std::vector<std::uint32_t>& corners) {
+    if (mode_ == 4 && corners.size() % 3 != 0)
+      document_.fail(fmt::format("{} corners of triangles are no whole triangles", corners.size()));
     const std::size_t step = mode_ == 4 ? 3 : 1;
     for (std::size_t i = 0; i + 2 < corners.size(); i += step) {
       Triangle t{corners[i], corners[i + 1], corners[i + 2]};

@@ -16,13 +16,11 @@
 namespace dismantle::mesh_files {
 namespace {
 
-constexpr std::string_view kPath = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06|path";
+constexpr std::string_view kProduction = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
 
 /// Extensions that a model may require: what they add is read, or changes no shape.
 bool extension_is_known(std::string_view space) {
-  for (const char* known : {"/production/", "/material/", "/trianglesets/"})
-    if (space.find(known) != space.npos) return true;
-  return false;
+  return space == kProduction || space.find("/material/") != space.npos || space.find("/trianglesets/") != space.npos;
 }
 
 std::string without_slash(std::string_view path) {
@@ -177,7 +175,13 @@ class ModelParser {
   Placed3mf placed(const XmlTag& tag) const {
     Placed3mf out;
     out.object = needed(tag, "objectid");
-    out.path = without_slash(tag.find(kPath).value_or(""));
+    for (const char** a = tag.attributes; *a != nullptr; a += 2) {  // the model file that holds the object
+      const std::string_view name = *a;
+      if (!name.ends_with("|path")) continue;
+      if (name.substr(0, name.rfind('|')) != kProduction)
+        fail(fmt::format("a path of the extension {}, which is not read", name.substr(0, name.rfind('|'))));
+      out.path = without_slash(a[1]);
+    }
     const auto transform = tag.find("transform");
     if (!transform) return out;
     std::string_view rest = *transform;

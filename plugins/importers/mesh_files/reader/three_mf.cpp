@@ -87,7 +87,7 @@ class Builder {
     if (object.type == "support" || object.type == "solidsupport")
       return leave_out(name, parents, "the file calls it a support", true);
     if (object.type == "other") return leave_out(name, parents, "the file says that it is not to be built", true);
-    if (!object.mesh.vertices.empty() || object.components.empty()) return add(object, name, path, place_of, parents);
+    if (!object.mesh.vertices.empty() || object.components.empty()) add(object, name, path, place_of, parents);
     const bool wraps = object.components.size() == 1;
     if (!wraps) parents.push_back(name);
     for (const Placed3mf& component : object.components)

@@ -240,5 +240,43 @@ TEST(Gltf, DamageIsRefused) {
   EXPECT_NE(with("/asset/version", "3.0").find("version"), std::string::npos);
 }
 
+TEST(Gltf, NodesThatShowNothingAreNamed) {
+  Glb glb;
+  const int none = glb.add(std::vector<float>{}, 5126, "VEC3");
+  const int ids = glb.add(std::vector<std::uint16_t>{7, 8}, 5123, "SCALAR");
+  const auto instances = [](const char* name, int accessor) {
+    return Json{{"EXT_mesh_gpu_instancing", {{"attributes", {{name, accessor}}}}}};
+  };
+  glb.json["nodes"] = {{{"mesh", 0}, {"name", "none"}, {"extensions", instances("TRANSLATION", none)}},
+                       {{"mesh", 0}, {"name", "two"}, {"extensions", instances("_ID", ids)}},
+                       {{"mesh", 0}, {"name", "hidden"}, {"scale", {0, 0, 0}}},
+                       {{"mesh", 0}, {"name", "flat"}, {"scale", {1, 0, 1}}}};
+  glb.json["scenes"][0]["nodes"] = {0, 1, 2, 3};
+  const auto parts = glb.read();
+  ASSERT_EQ(parts.size(), 5u);
+  EXPECT_EQ(parts[0].problem, "it has no instances");
+  EXPECT_EQ(parts[1].problem + parts[2].problem, "");
+  EXPECT_TRUE(parts[3].by_meaning) << parts[3].problem;
+  EXPECT_NE(parts[4].problem, "");
+  EXPECT_FALSE(parts[4].by_meaning);
+  Glb cut;
+  cut.json["accessors"][1]["count"] = 35;
+  EXPECT_NE(cut.error().find("no whole triangles"), std::string::npos) << cut.error();
+}
+
+TEST(Gltf, ABufferBesideAGlbFileBelongsToIt) {
+  const TempFolder folder;
+  folder.write("b.bin", "data");
+  std::string text = R"({"asset":{"version":"2.0"},"buffers":[{"uri":"b.bin","byteLength":4}]})";
+  while (text.size() % 4 != 0) text += ' ';
+  const auto word = [](std::size_t n) {
+    const auto value = static_cast<std::uint32_t>(n);
+    return std::string(reinterpret_cast<const char*>(&value), 4);
+  };
+  const auto file =
+      folder.write("a.glb", "glTF" + word(2) + word(20 + text.size()) + word(text.size()) + "JSON" + text);
+  ASSERT_EQ(MeshFiles().referenced_files(file).size(), 1u) << "the hash of the plan covers it";
+}
+
 }  // namespace
 }  // namespace dismantle::mesh_files

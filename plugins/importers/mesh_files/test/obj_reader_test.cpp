@@ -94,6 +94,25 @@ TEST(ObjReader, NamesTheLineOfEveryError) {
   EXPECT_NE(error_of(v + "f 1 2 9\n").find("bad part.obj"), std::string::npos);
 }
 
+TEST(ObjReader, ObjectsThatAreNotReadAreNamed) {
+  const TempFolder folder;
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n", surface = "surf 0 1 0 1 1 2 3 4\n";
+  const auto file =
+      folder.write("a.obj", corners + "o a\nfo 1 2 3\no wire\nl 1 2\no patch\n" + surface + "o b\nf 1 2 3\n" + surface);
+  std::string log;
+  RunContext context;
+  context.on_log = [&](LogLevel, std::string_view text) { log += text; };
+  const auto parts = read_obj(file, context);
+  ASSERT_EQ(parts.size(), 4u);
+  EXPECT_EQ(parts[0].mesh.triangles.size(), 1u);
+  EXPECT_EQ(parts[2].name, "wire");
+  EXPECT_TRUE(parts[2].by_meaning);
+  EXPECT_EQ(parts[3].name, "patch");
+  EXPECT_NE(parts[3].problem.find("free-form"), std::string::npos);
+  EXPECT_FALSE(parts[3].by_meaning);
+  EXPECT_NE(log.find("'b' has free-form surfaces"), std::string::npos) << log;
+}
+
 TEST(ObjReader, RandomDamageGivesAMeshOrAnInputError) {
   const TempFolder folder;
   const std::string good =

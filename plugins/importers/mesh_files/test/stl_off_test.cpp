@@ -202,6 +202,43 @@ TEST(OffReader, RefusesDamage) {
   EXPECT_NE(error("OFF\n1 0 0\n0 0 0\n").find("no faces"), std::string::npos);
 }
 
+TEST(StlReader, NoTriangleBehindTheStatedOnesIsLost) {
+  const TempFolder folder;
+  const std::string bytes = testing::binary_stl(kBox);
+  std::string less = bytes;
+  less[80] = 6;
+  for (const std::string& form : {less, bytes + bytes}) {
+    const std::string error = input_error([&] { read_stl(folder.write("a.stl", form)); });
+    EXPECT_NE(error.find("there are more behind them"), std::string::npos) << error;
+  }
+  std::string solid = bytes + "some attributes of a program";
+  solid.replace(0, 5, "solid");
+  EXPECT_EQ(read_stl(folder.write("a.stl", solid)).at(0).mesh.triangles.size(), 12u);
+}
+
+TEST(StlReader, ASolidWithoutTrianglesIsNamed) {
+  const TempFolder folder;
+  const auto parts = read_stl(folder.write("a.stl", testing::text_stl(kBox, "a") + "solid lost\nendsolid lost\n"));
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[1].name, "lost");
+  EXPECT_EQ(parts[1].problem, "it has no triangles");
+}
+
+TEST(AllReaders, WhatFollowsTheStatedElementsIsNotLost) {
+  const TempFolder folder;
+  const std::string corners = "0 0 0\n1 0 0\n0 1 0\n";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+      corners + "3 0 1 2\n";
+  const std::string off = "OFF\n3 1 0\n" + corners + "3 0 1 2\n";
+  EXPECT_EQ(read_ply(folder.write("a.ply", ply + "\n \n")).size(), 1u);
+  EXPECT_EQ(read_off(folder.write("a.off", off + "\n# end\n")).size(), 1u);
+  for (const auto& error : {input_error([&] { read_ply(folder.write("a.ply", ply + "3 0 2 1\n")); }),
+                            input_error([&] { read_off(folder.write("a.off", off + "3 0 2 1\n")); })})
+    EXPECT_NE(error.find("it goes on behind the"), std::string::npos) << error;
+}
+
 TEST(AllReaders, RandomDamageGivesAMeshOrAnInputError) {
   const TempFolder folder;
   MeshFiles importer;

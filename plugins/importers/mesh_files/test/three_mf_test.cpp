@@ -180,5 +180,23 @@ TEST_F(ThreeMf, AnArchiveThatExplodesIsRefused) {
   EXPECT_NE(text.find("expands from"), std::string::npos) << text;
 }
 
+TEST_F(ThreeMf, APathOfAnUnknownExtensionIsNotIgnored) {
+  // Without the path, the object of the same id in this file would stand in for the other.
+  std::string text =
+      model("unit=\"millimeter\"", object("1", "", 1, 1, 1), "<item p:path=\"/3D/b.model\" objectid=\"1\"/>");
+  const std::string year = "production/2015/06";
+  text.replace(text.find(year), year.size(), "production/2031/01");
+  EXPECT_NE(error(text).find("production/2031/01"), std::string::npos) << error(text);
+}
+
+TEST_F(ThreeMf, AnObjectWithAMeshAndComponentsIsAllOfThem) {
+  std::string both = object("2", "name=\"both\"", 2, 2, 2);
+  both.insert(both.find("</object>"), "<components><component objectid=\"1\"/></components>");
+  const auto parts =
+      read(model("unit=\"millimeter\"", object("1", "name=\"one\"", 1, 1, 1) + both, "<item objectid=\"2\"/>"));
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_DOUBLE_EQ(signed_volume(parts[0].mesh) + signed_volume(parts[1].mesh), 9);
+}
+
 }  // namespace
 }  // namespace dismantle::mesh_files

@@ -2,6 +2,7 @@
 
 #include <BRepBuilderAPI_Transform.hxx>
 #include <STEPControl_ActorRead.hxx>
+#include <StepData_UndefinedEntity.hxx>
 #include <StepGeom_Axis2Placement3d.hxx>
 #include <StepGeom_CartesianPoint.hxx>
 #include <StepGeom_CartesianTransformationOperator3d.hxx>
@@ -85,11 +86,20 @@ class Mapper {
     std::vector<std::string> refused;
     for (int i = 1; i <= model->NbEntities(); ++i) {
       const Handle(Standard_Transient) entity = model->Value(i);
-      if (const auto item = Handle(StepRepr_MappedItem)::DownCast(entity); !item.IsNull()) place(item, 0);
+      if (const auto item = Handle(StepRepr_MappedItem)::DownCast(entity); !item.IsNull()) {
+        place(item, 0);
+        const Handle(Standard_Transient) target = item->MappingTarget();
+        if (target.IsNull() || target->IsKind(STANDARD_TYPE(StepData_UndefinedEntity)))
+          refused.push_back("the mapped item #" + std::to_string(model->Number(entity)) +
+                            " is placed by an operator of a kind that is not read");
+      }
       const auto relation = Handle(StepRepr_RepresentationRelationshipWithTransformation)::DownCast(entity);
       if (relation.IsNull()) continue;
-      const auto op =
-          Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(relation->TransformationOperator().Value());
+      const Handle(Standard_Transient) value = relation->TransformationOperator().Value();
+      if (value.IsNull() || value->IsKind(STANDARD_TYPE(StepData_UndefinedEntity)))
+        refused.push_back("the component placed by #" + std::to_string(model->Number(entity)) +
+                          " is placed by an operator of a kind that is not read");
+      const auto op = Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(value);
       if (!op.IsNull() && !frame_of(*op).turns_only())
         refused.push_back("the component placed by #" + std::to_string(model->Number(entity)) +
                           " is mirrored or scaled by a CARTESIAN_TRANSFORMATION_OPERATOR_3D, which is not read: write "

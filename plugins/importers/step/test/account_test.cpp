@@ -131,6 +131,16 @@ TEST(StepAccount, MappedItemsAreMirroredAndScaled) {
   }
 }
 
+TEST(StepAccount, AnOperatorOfAnUnknownKindIsRefused) {
+  const Scratch scratch;
+  const std::string text = mapped(
+      "#90004=CARTESIAN_TRANSFORMATION_OPERATOR_3D_NON_UNIFORM('','','',$,$,#90013,2.,$,3.,4.);\n"
+      "#90013=CARTESIAN_POINT('',(0.,0.,0.));\n",
+      scratch);
+  const std::string error = input_error([&] { read(scratch.write("a.step", text)); });
+  EXPECT_NE(error.find("an operator of a kind that is not read"), std::string::npos) << error;
+}
+
 TEST(StepAccount, ATessellatedSolidIsReadOrNamed) {
   const Scratch scratch;
   std::string text = two_parts("plate", "cover", scratch);
