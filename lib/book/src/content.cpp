@@ -8,8 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "content_writer.h"
+#include "content_basis.h"
 #include "dismantle/errors.h"
+#include "dismantle/plan_io/bill_items.h"
 #include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/order_words.h"
@@ -17,6 +18,7 @@
 #include "dismantle/plan_io/thread_words.h"
 #include "dismantle/plan_io/travel.h"
 #include "equal_steps.h"
+#include "front_matter.h"
 #include "items.h"
 
 namespace dismantle {
@@ -48,8 +50,9 @@ class ContentWriter : private ContentBasis {
     content_.chapters = instructions(plan, assembly, options.disassembly);
     if (content_.chapters.empty())
       throw InputError(plan.assembly.source, "the plan has no steps, so there is nothing to instruct");
-    join_equal_steps(content_.chapters, plan, assembly, shapes);
-    numbers_ = find_items(content_, plan, assembly, shapes, unit);
+    const std::vector<std::size_t> items = bill_items(plan.assembly, assembly, shapes);
+    join_equal_steps(content_.chapters, plan, assembly, items);
+    numbers_ = find_items(content_, plan, assembly, items, unit);
   }
 
   BookContent write() {
@@ -214,8 +217,8 @@ class ContentWriter : private ContentBasis {
 
   /// What the plan says about the step, or about all steps of the page.
   void add_plan_facts(BookPage& page) const {
-    std::vector<Facts> each{facts_of(plan.disassembly[page.step->plan_step], page.step->plan_step, page)};
-    for (const std::size_t s : page.step->joined) each.push_back(facts_of(plan.disassembly[s], s, page));
+    std::vector<Facts> each{facts_of(page.step->plan_step, page)};
+    for (const std::size_t s : page.step->joined) each.push_back(facts_of(s, page));
     std::ranges::sort(page.held);
     const auto [from, to] = std::ranges::unique(page.held);
     page.held.erase(from, to);
@@ -227,7 +230,9 @@ class ContentWriter : private ContentBasis {
     for (auto& fact : facts_of_all(each, words.label("order"), name_of)) page.facts.push_back(std::move(fact));
   }
 
-  Facts facts_of(const PlanStep& step, std::size_t plan_step, BookPage& page) const {
+  /// Of one step; warnings and holds go to the page.
+  Facts facts_of(std::size_t plan_step, BookPage& page) const {
+    const PlanStep& step = plan.disassembly[plan_step];
     Facts facts;
     if (step.forced && step.forced->accepted.empty()) {
       page.warning = said("Not verified: {}.", words.text(forced_text(unit, *step.forced)));

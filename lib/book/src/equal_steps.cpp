@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 
-#include "dismantle/plan_io/bill_items.h"
 #include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/step_runs.h"
 
@@ -15,13 +14,10 @@ namespace {
 
 class Joiner {
  public:
-  Joiner(const Plan& plan, const Assembly& assembly, const std::vector<geometry::ShapePlacement>& shapes) {
+  Joiner(const Plan& plan, const Assembly& assembly, const std::vector<std::size_t>& items) {
     std::map<std::string, std::size_t> index_of;
     for (std::size_t i = 0; i < assembly.parts.size(); ++i) index_of.emplace(assembly.parts[i].name, i);
-    const std::vector<std::size_t> items = bill_items(plan.assembly, assembly, shapes);
-    PartShapes of_part;
-    for (const PlanPart& part : plan.assembly.parts) of_part.push_back(items[index_of.at(part.name)]);
-    const std::vector<StepRun> runs = step_runs(plan, of_part);
+    const std::vector<StepRun> runs = step_runs(plan, shapes_of(plan, assembly, items));
     for (std::size_t r = 0; r < runs.size(); ++r) run_of_.insert(run_of_.end(), runs[r].count, r);
     for (const PlanComponent& component : plan.assembly.components) {
       if (!component.kept) continue;
@@ -60,7 +56,8 @@ class Joiner {
     return (a.t - b.t).norm() <= still_ && a.q.angularDistance(b.q) < 1e-6;
   }
 
-  /// Does each part that both steps know stand at the same place in both?
+  /// Does each part that both steps know stand at the same place in both? Poses are relative to the largest part that
+  /// stays, which may be another one.
   bool same_base(const BookStep& a, const BookStep& b) const {
     std::map<std::size_t, const Pose*> first;
     for (const PlacedPart& part : a.standing) first.emplace(part.part, &part.pose);
@@ -106,8 +103,8 @@ std::string renamed(const std::string& text, const std::function<std::string(con
 }  // namespace
 
 void join_equal_steps(std::vector<BookChapter>& chapters, const Plan& plan, const Assembly& assembly,
-                      const std::vector<geometry::ShapePlacement>& shapes) {
-  const Joiner joiner(plan, assembly, shapes);
+                      const std::vector<std::size_t>& items) {
+  const Joiner joiner(plan, assembly, items);
   for (BookChapter& chapter : chapters) chapter.steps = joiner.joined(std::move(chapter.steps));
 }
 

@@ -10,9 +10,10 @@
 namespace dismantle {
 
 /// Joins the steps of each run (see step_runs.h) that take one part or one product each, straight or by a screw motion,
-/// while nothing else moves. What stands there is what stands before the first of them.
+/// while nothing else moves. What stands there is what stands before the first of them; the tools are those of the
+/// first. `items`: by part, of bill_items(). @throws InputError when the plan has a part that the assembly lacks.
 void join_equal_steps(std::vector<BookChapter>& chapters, const Plan& plan, const Assembly& assembly,
-                      const std::vector<geometry::ShapePlacement>& shapes);
+                      const std::vector<std::size_t>& items);
 
 /// The facts of equal steps, each said once, in the order of their first step. Where several steps say the same of
 /// different parts, the quoted names of parts become `name_of` them; where not all steps say it: "(2 / 6) ...".

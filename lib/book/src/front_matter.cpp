@@ -1,8 +1,8 @@
-// Title, contents, fasteners and tools, and what was checked.
+#include "front_matter.h"
+
 #include <algorithm>
 #include <filesystem>
 
-#include "content_writer.h"
 #include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/job_list.h"
 #include "dismantle/plan_io/plan_account.h"

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <utility>
 
-#include "dismantle/plan_io/bill_items.h"
 #include "dismantle/plan_io/job_list.h"
 #include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/text_columns.h"
@@ -36,7 +35,7 @@ class ItemFinder {
   ItemFinder(BookContent& content, const Plan& plan, const Assembly& assembly, const TextUnit& unit)
       : content_(content), plan_(plan), assembly_(assembly), unit_(unit) {}
 
-  ItemNumbers find(const std::vector<geometry::ShapePlacement>& shapes) {
+  ItemNumbers find(const std::vector<std::size_t>& firsts) {
     numbers_.of_part.resize(assembly_.parts.size());
     std::vector<bool> listed_here = handled();
     std::vector<std::string> rest;
@@ -46,7 +45,6 @@ class ItemFinder {
       content_.base = fmt::format("{} that stay together are not listed: {}", text::counted(rest.size(), "part"),
                                   listed_names(rest));
     find_products(listed_here);
-    const std::vector<std::size_t> firsts = bill_items(plan_.assembly, assembly_, shapes);
     std::map<std::size_t, std::size_t> item_of_shape;
     for (std::size_t i = 0; i < assembly_.parts.size(); ++i) {
       if (!listed_here[i]) continue;
@@ -157,8 +155,8 @@ class ItemFinder {
 }  // namespace
 
 ItemNumbers find_items(BookContent& content, const Plan& plan, const Assembly& assembly,
-                       const std::vector<geometry::ShapePlacement>& shapes, const TextUnit& unit) {
-  return ItemFinder(content, plan, assembly, unit).find(shapes);
+                       const std::vector<std::size_t>& items, const TextUnit& unit) {
+  return ItemFinder(content, plan, assembly, unit).find(items);
 }
 
 std::string listed_names(std::vector<std::string> names) {

@@ -17,9 +17,10 @@ struct ItemNumbers {
   std::map<std::string, std::size_t> of_component;
 };
 
-/// Fills the items of a content that has its chapters, what it does not list, and the numbers of the parts.
+/// Fills the items of a content that has its chapters, what it does not list, and the numbers of the parts. `items`: by
+/// part, of bill_items().
 ItemNumbers find_items(BookContent& content, const Plan& plan, const Assembly& assembly,
-                       const std::vector<geometry::ShapePlacement>& shapes, const TextUnit& unit);
+                       const std::vector<std::size_t>& items, const TextUnit& unit);
 
 /// Names in a sentence; of many, the first.
 std::string listed_names(std::vector<std::string> names);

@@ -334,7 +334,7 @@ void pdf_step(PdfPages& pdf, const BookPage& page, const StepPictures& pictures,
   const double margin = style.margin;
   const double width = style.width - 2 * margin, column = 0.33 * width, large = width - column - 18;
   pdf.text(margin, margin - 14, 0.7 * width, page.chapter, 10.5, style.soft);
-  pdf.text(style.width - margin - 96, margin - 14, 96,
+  pdf.text(style.width - margin - 130, margin - 14, 130,
            fmt::format(fmt::runtime(words.label("step {} of {}")), page.numbers(), page.count), 10.5, style.soft);
   const double box = pdf_box(pdf, page, illustrator, margin, margin + 8, large);
   pdf.picture(pictures.apart, margin, margin + 8 + box, large, style.height - 2 * margin - 24 - box);

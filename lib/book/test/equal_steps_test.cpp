@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "dismantle/plan_io/bill_items.h"
 #include "dismantle/testing/shapes.h"
 
 namespace dismantle {
@@ -55,15 +56,19 @@ Row row_on_plate(std::mt19937& random, std::size_t count) {
   return out;
 }
 
+std::vector<std::size_t> items_of(const Row& row) {
+  return bill_items(row.plan.assembly, row.assembly, geometry::find_congruent(row.assembly.parts));
+}
+
 TEST(EqualSteps, EachStepIsOnOnePageWithItsEquals) {
   std::mt19937 random(5);
   std::size_t joined = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const Row row = row_on_plate(random, 2 + trial % 9);
-    const auto shapes = geometry::find_congruent(row.assembly.parts);
+    const std::vector<std::size_t> items = items_of(row);
     for (const bool disassembly : {false, true}) {
       std::vector<BookChapter> chapters = instructions(row.plan, row.assembly, disassembly);
-      join_equal_steps(chapters, row.plan, row.assembly, shapes);
+      join_equal_steps(chapters, row.plan, row.assembly, items);
       ASSERT_EQ(chapters.size(), 1u);
       std::size_t next = 1;
       std::pair<bool, bool> before;
@@ -99,11 +104,46 @@ TEST(EqualSteps, AForcedStepAndPartsThatMoveTogetherStayAlone) {
     const std::size_t forced = random() % 6;
     row.plan.disassembly[forced].forced = PlanForced{.part = "base", .other = "base", .depth = 0.1, .reason = "held"};
     std::vector<BookChapter> chapters = instructions(row.plan, row.assembly, false);
-    join_equal_steps(chapters, row.plan, row.assembly, geometry::find_congruent(row.assembly.parts));
+    join_equal_steps(chapters, row.plan, row.assembly, items_of(row));
     for (const BookStep& step : chapters[0].steps) {
       const bool has = step.plan_step == forced || std::ranges::find(step.joined, forced) != step.joined.end();
       EXPECT_TRUE(!has || step.joined.empty());
     }
+  }
+}
+
+// A page shows one frame: that of the largest part that stays. Steps that are seen from parts that were displaced
+// differently have no frame in common.
+TEST(EqualSteps, StepsThatAreSeenFromDisplacedPartsStayAlone) {
+  std::mt19937 random(9);
+  for (const bool displaced : {false, true}) {
+    Row row = row_on_plate(random, 4);
+    row.plan.disassembly.clear();
+    row.assembly.parts.erase(row.assembly.parts.begin());  // no plate: the first post that stays is the largest part
+    row.plan.assembly.parts.erase(row.plan.assembly.parts.begin());
+    const auto add_step = [&](const std::string& name, const Pose& from, const Eigen::Vector3d& by, bool leaves) {
+      PlanStep step;
+      step.step = static_cast<unsigned>(row.plan.disassembly.size() + 1);
+      step.moves = {{name, {from, Pose{from.t + by, from.q}}}};
+      if (leaves) step.separates = {{name}};
+      row.plan.disassembly.push_back(step);
+    };
+    const Pose aside{{0, 2, 0}, Eigen::Quaterniond::Identity()};
+    for (std::size_t i = 0; i < 4; ++i) {
+      Part& part = row.assembly.parts[i];
+      part.id = row.plan.assembly.parts[i].id = static_cast<PartId>(i);
+      part.name = row.plan.assembly.parts[i].name = "post#" + std::to_string(i + 1);
+      const double x = 3.0 * double(i);
+      part.mesh = part.surface = std::make_shared<Mesh>(shapes::box({x, 0, 0}, {x + 1, 1, 2}));
+    }
+    if (displaced) add_step("post#3", Pose{}, aside.t, false);
+    for (std::size_t i = 0; i < 3; ++i)
+      add_step(row.assembly.parts[i].name, displaced && i == 2 ? aside : Pose{}, {0, 0, 5}, true);
+    std::vector<BookChapter> chapters = instructions(row.plan, row.assembly, true);
+    join_equal_steps(chapters, row.plan, row.assembly, items_of(row));
+    std::vector<std::size_t> pages;
+    for (const BookStep& step : chapters.at(0).steps) pages.push_back(1 + step.joined.size());
+    EXPECT_EQ(pages, displaced ? std::vector<std::size_t>({1, 1, 1, 1}) : std::vector<std::size_t>{3});
   }
 }
 

@@ -293,6 +293,11 @@ TEST(CheckAssembly, SaysWhatPlanSaysAboutTheInput) {
   EXPECT_TRUE(check.sound());
   hidden.by_meaning = false;
   EXPECT_FALSE(checked({a, b, hidden}).sound());
+  RawPart copy = a;
+  copy.name = "copy";
+  const AssemblyCheck twice = checked({a, b, copy});
+  EXPECT_LT(twice.usable, twice.parts);
+  EXPECT_TRUE(twice.sound()) << "the part is there, as for `plan`";
 }
 
 }  // namespace

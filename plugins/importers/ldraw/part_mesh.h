@@ -17,10 +17,10 @@ struct PartMesh {
   std::string problem{};
 };
 
-/// Collects surfaces, each part file once.
 /// Files in files, and uses of files by one part or model, which nesting can multiply: far above those of real models.
 inline constexpr std::size_t kDeepest = 200, kMostUses = 1'000'000;
 
+/// Collects surfaces, each part file once.
 class PartMeshes {
  public:
   explicit PartMeshes(Library& library) : library_(library) {}

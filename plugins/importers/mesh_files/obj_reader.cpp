@@ -55,12 +55,13 @@ class ObjReader {
  private:
   /// Names an object that has nothing but what is not read.
   void end_object() {
+    const std::string name = object_.empty() ? file_.stem().string() : object_;
     if (surfaces_ && object_open_)
       context_.log(LogLevel::warning,
-                   fmt::format("'{}' has free-form surfaces, which are not read, beside its faces", object_));
+                   fmt::format("'{}' has free-form surfaces, which are not read, beside its faces", name));
     if ((surfaces_ || drawn_) && !object_open_) {
       RawPart& part = absent_.emplace_back();
-      part.name = object_;
+      part.name = name;
       part.file = file_.filename().string();
       part.problem = surfaces_ ? "it has free-form surfaces, which are not read, and no faces" : "only points or lines";
       part.by_meaning = !surfaces_;

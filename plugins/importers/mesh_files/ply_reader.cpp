@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -87,7 +88,7 @@ class PlyReader {
     }
     where_.clear();
     for (char c; in_.get(c);)
-      if (c != '\0' && trimmed({&c, 1}) != "" && c != '\n')
+      if (c != '\0' && std::isspace(static_cast<unsigned char>(c)) == 0)
         fail("it goes on behind the elements that its header states: their numbers are wrong");
     if (part.mesh.vertices.empty()) fail("no vertices");
     for (std::vector<std::uint32_t>& corners : std::exchange(before_vertices_, {})) {

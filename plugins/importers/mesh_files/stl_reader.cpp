@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <system_error>
 
 #include "dismantle/errors.h"
@@ -55,10 +57,13 @@ std::optional<BinaryHeader> header_of(const std::filesystem::path& file) {
 
 bool is_text(const BinaryHeader& header) { return header.says_solid && !header.zeros && !header.fits(); }
 
-/// Whether what follows the stated triangles is more of them, or another file.
+/// Whether what follows the stated triangles is more of them, or another file. Bytes of zero are none of these.
 bool goes_on(std::ifstream& in, std::uint64_t behind, std::uint64_t rest) {
-  if (rest % kRecord == 0) return rest > 0;
+  in.seekg(static_cast<std::streamoff>(behind));
+  if (std::all_of(std::istreambuf_iterator<char>(in), {}, [](char c) { return c == '\0'; })) return false;
+  if (rest % kRecord == 0) return true;
   unsigned char count[4] = {};
+  in.clear();
   in.seekg(static_cast<std::streamoff>(behind + kHeader - sizeof count));
   if (!in.read(reinterpret_cast<char*>(count), sizeof count)) return false;
   const std::uint64_t more = little_endian(count);
@@ -160,7 +165,10 @@ std::vector<RawPart> read_text(const std::filesystem::path& file, const RunConte
   if (in_solid) lines.fail("the file ends inside a solid: it is cut off");
   std::size_t empty = 0;
   for (RawPart& part : parts)
-    if (part.mesh.triangles.empty()) part.problem = "it has no triangles", ++empty;
+    if (part.mesh.triangles.empty()) {
+      part.problem = "it has no triangles";
+      ++empty;
+    }
   if (empty == parts.size()) throw InputError(file.string(), "no triangles");
   return parts;
 }

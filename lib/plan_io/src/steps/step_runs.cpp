@@ -105,9 +105,12 @@ class Runs {
 }  // namespace
 
 PartShapes shapes_of(const Plan& plan, const Assembly& assembly) {
+  return shapes_of(plan, assembly, bill_items(plan.assembly, assembly, geometry::find_congruent(assembly.parts)));
+}
+
+PartShapes shapes_of(const Plan& plan, const Assembly& assembly, const std::vector<std::size_t>& items) {
   std::map<std::string, std::size_t> index_of;
   for (std::size_t i = 0; i < assembly.parts.size(); ++i) index_of.emplace(assembly.parts[i].name, i);
-  const std::vector<std::size_t> items = bill_items(plan.assembly, assembly, geometry::find_congruent(assembly.parts));
   PartShapes out;
   for (const PlanPart& part : plan.assembly.parts) {
     const auto known = index_of.find(part.name);

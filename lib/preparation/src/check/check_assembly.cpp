@@ -321,7 +321,7 @@ std::size_t AssemblyCheck::count(Severity severity) const {
       std::ranges::count_if(findings, [severity](const Finding& f) { return f.severity == severity; }));
 }
 
-bool AssemblyCheck::sound() const { return count(Severity::error) == 0 && usable == parts; }
+bool AssemblyCheck::sound() const { return count(Severity::error) == 0; }
 
 AssemblyCheck check_parts(const PrepareReport& report) {
   AssemblyCheck check;

@@ -92,6 +92,7 @@ TEST(ObjReader, NamesTheLineOfEveryError) {
   EXPECT_NE(error_of("").find("no vertices"), std::string::npos);
   EXPECT_NE(error_of(v).find("3 vertices but no faces"), std::string::npos);
   EXPECT_NE(error_of(v + "f 1 2 9\n").find("bad part.obj"), std::string::npos);
+  EXPECT_NE(error_of(v + "call more.obj\nf 1 2 3\n").find("in another file"), std::string::npos);
 }
 
 TEST(ObjReader, ObjectsThatAreNotReadAreNamed) {
@@ -111,6 +112,9 @@ TEST(ObjReader, ObjectsThatAreNotReadAreNamed) {
   EXPECT_NE(parts[3].problem.find("free-form"), std::string::npos);
   EXPECT_FALSE(parts[3].by_meaning);
   EXPECT_NE(log.find("'b' has free-form surfaces"), std::string::npos) << log;
+  log.clear();
+  read_obj(folder.write("unnamed.obj", corners + "f 1 2 3\n" + surface), context);
+  EXPECT_NE(log.find("'unnamed' has free-form surfaces"), std::string::npos) << log;
 }
 
 TEST(ObjReader, RandomDamageGivesAMeshOrAnInputError) {

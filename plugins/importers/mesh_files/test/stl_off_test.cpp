@@ -214,6 +214,8 @@ TEST(StlReader, NoTriangleBehindTheStatedOnesIsLost) {
   std::string solid = bytes + "some attributes of a program";
   solid.replace(0, 5, "solid");
   EXPECT_EQ(read_stl(folder.write("a.stl", solid)).at(0).mesh.triangles.size(), 12u);
+  for (const std::size_t padding : {50, 200, 512})
+    EXPECT_EQ(read_stl(folder.write("a.stl", bytes + std::string(padding, '\0'))).at(0).mesh.triangles.size(), 12u);
 }
 
 TEST(StlReader, ASolidWithoutTrianglesIsNamed) {

@@ -24,6 +24,8 @@ using PartShapes = std::vector<std::size_t>;
 /// By their surfaces, as bill_items() counts them.
 /// @throws InputError when the plan has a part that the assembly lacks.
 DISMANTLE_API PartShapes shapes_of(const Plan& plan, const Assembly& assembly);
+/// The same for `items` of bill_items(), by part of the assembly.
+DISMANTLE_API PartShapes shapes_of(const Plan& plan, const Assembly& assembly, const std::vector<std::size_t>& items);
 /// By what the plan says alone: uses of one product are equal. Parts without a product are equal to no other.
 DISMANTLE_API PartShapes shapes_of(const Plan& plan);
 

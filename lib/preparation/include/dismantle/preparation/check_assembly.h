@@ -82,8 +82,8 @@ struct AssemblyCheck {
   std::vector<CheckedKind> kinds{};      ///< of parts whose kind was looked at, fasteners first; see Part::kind
   std::vector<CheckedFastening> fastenings{};  ///< of screws whose kind was looked at, in the order of the parts
   std::size_t count(Severity severity) const;
-  /// Whether a plan can be trusted to be about the whole assembly: no error, and no part is left out. Warnings alone
-  /// are for people to look at.
+  /// Whether a plan can be trusted to be about the whole assembly: no error. A part that is left out is one, unless it
+  /// is there already (a duplicate, a warning). Warnings alone are for people to look at.
   bool sound() const;
 };
 

@@ -12,6 +12,7 @@
 
 namespace dismantle {
 
+/// What a book is made of, and texts in its unit and language.
 struct ContentBasis {
   const Plan& plan;
   const Assembly& assembly;
@@ -34,9 +35,5 @@ struct ContentBasis {
     return fmt::format("{} {}", figure_text(unit.factor * input_units), unit.name);
   }
 };
-
-/// Fills the title, the table of contents, the list of fasteners and tools and the account of what was checked, of a
-/// content that has its items and pages.
-void write_front_matter(BookContent& content, const ContentBasis& basis);
 
 }  // namespace dismantle
