@@ -144,15 +144,16 @@ endfunction()
 add_custom_target(sanitized_tests)
 add_custom_target(threads_tests)
 
-# dismantle_add_test(NAME SOURCES ... LIBRARIES ... [NEEDS FOLDER...] [USES FOLDER...] [THREADS FILTER] [UNSANITIZED]): a Google Test
-# program, run as one CTest test. It loads the plugins of these folders at run time. If one of NEEDS is missing, the test is
-# left out with a message; those of USES are optional. THREADS: the tests that use threads, as a filter of Google Test; only
-# these run with the thread sanitizer. UNSANITIZED: a library of others is not clean under the sanitizers.
+# dismantle_add_test(NAME SOURCES ... LIBRARIES ... [NEEDS FOLDER...] [USES FOLDER...] [THREADS FILTER] [COST SECONDS]
+# [UNSANITIZED]): a Google Test program, run as one CTest test. It loads the plugins of these folders at run time. If one of
+# NEEDS is missing, the test is left out with a message; those of USES are optional. THREADS: the tests that use threads, as a
+# filter of Google Test; only these run with the thread sanitizer. COST: about how long a long test takes; the longest begin
+# first. UNSANITIZED: a library of others is not clean under the sanitizers.
 function(dismantle_add_test name)
   if(NOT DISMANTLE_BUILD_TESTS)
     return()
   endif()
-  cmake_parse_arguments(ARG "UNSANITIZED" "THREADS" "SOURCES;LIBRARIES;NEEDS;USES" ${ARGN})
+  cmake_parse_arguments(ARG "UNSANITIZED" "THREADS;COST" "SOURCES;LIBRARIES;NEEDS;USES" ${ARGN})
   dismantle_left_out(missing ${name} ${ARG_NEEDS})
   if(missing)
     return()
@@ -183,6 +184,9 @@ function(dismantle_add_test name)
   endif()
   if("$ENV{DISMANTLE_TESTS}" STREQUAL "nightly")
     set(limit 86400)  # the nightly form has up to a thousand times as many trials
+  endif()
+  if(ARG_COST)
+    set_tests_properties(${name} PROPERTIES COST ${ARG_COST})
   endif()
   set_tests_properties(${name} PROPERTIES TIMEOUT ${limit} LABELS "${labels}"
     ENVIRONMENT "DISMANTLE_PLUGIN_PATH=${DISMANTLE_PLUGIN_OUTPUT_DIRECTORY}")

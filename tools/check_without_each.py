@@ -21,7 +21,8 @@ ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), 
 # Tests that take seconds: of every library, and tests that load plugins.
 FAST = ("core_tests geometry_tests preparation_tests plan_io_tests book_tests engine_tests plugins_tests plugins_good_tests configs_tests "
         "shipped_plugins_are_found sdf_tests sdf_world_tests path_common_tests push_search_tests ompl_common_tests progressive_tests "
-        "queue_tests random_tests mesh_files_test cli_tests").split()
+        "queue_tests random_tests mesh_files_test").split()
+COMMAND_LINE = r"cli_\w+"  # a test for each module of tests/cli
 # Targets that these tests run besides the programs.
 HELPERS = ("dismantle_contract_tests", "evil_planners")
 
@@ -67,7 +68,7 @@ def main():
     parser.add_argument("folders", nargs="*", metavar="FOLDER")
     parser.add_argument("--build", default="build/without", help="build folder (default: %(default)s)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--tests", default="^(" + "|".join(FAST) + ")$", metavar="REGEX", help="tests to run")
+    parser.add_argument("--tests", default="^(" + "|".join([*FAST, COMMAND_LINE]) + ")$", metavar="REGEX", help="tests to run")
     parser.add_argument("--configure-only", action="store_true")
     arguments = parser.parse_args()
     known = shipped()

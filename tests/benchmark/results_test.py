@@ -10,7 +10,7 @@ from benching import PROGRAM, BenchTest
 SOURCE = os.environ["SOURCE_FOLDER"]
 
 
-T_RRT = "{set: {simulator.type: fcl, path_planner.type: t_rrt, sequence_planner.type: progressive}"
+T_RRT = "{set: {simulator.type: fcl, path_planner.type: t_rrt, sequence_planner.type: progressive, immobility.provers: []}"
 NONE = "{config: ../evil.yaml}"
 
 

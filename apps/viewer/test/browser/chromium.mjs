@@ -18,7 +18,8 @@ export async function launch({webgl = true} = {}) {
 
 /** Opens a page from the disk and waits for its first picture. `complaints` collects errors and warnings of the console. */
 export async function open(browser, file, options = {}) {
-  const page = await browser.newPage({viewport: {width: 1280, height: 800}, ...options});
+  // A quarter of the pixels: they are drawn in software.
+  const page = await browser.newPage({viewport: {width: 1280, height: 800}, deviceScaleFactor: 0.5, ...options});
   page.setDefaultTimeout(120_000);  // software rendering on a busy machine is slow
   page.complaints = [];
   page.requests = [];

@@ -20,6 +20,12 @@ RunResult last_resort_in_turn(const Assembly& assembly, const RunContext& contex
   return fake::forced_run(assembly, std::make_shared<InTurn>(), context);
 }
 
+/// A plate in a closed box, forced out of it. Made once: several tests look at the same plan.
+const RunResult& forced_closed_box() {
+  static const RunResult result = last_resort_in_turn(fake::closed_box());
+  return result;
+}
+
 PlanCheck check(const Plan& plan, const Assembly& assembly) {
   RunContext context;
   return check_plan(plan, assembly, VerifyOptions{}, context);
@@ -33,7 +39,7 @@ TEST(ForcedSteps, OffLeavesWhatIsStuck) {
 
 TEST(ForcedSteps, WhatIsStuckIsTakenOutWhereItCutsInLeast) {
   const Assembly assembly = fake::closed_box();
-  const RunResult r = last_resort_in_turn(assembly);
+  const RunResult& r = forced_closed_box();
   EXPECT_EQ(r.plan.status, PlanStatus::forced);
   EXPECT_NE(r.outcome, Outcome::solved);
   ASSERT_EQ(r.plan.disassembly.size(), 1u);
@@ -106,7 +112,7 @@ TEST(ForcedSteps, ASearchForThePartnerOfAPairIsTheReasonAndNotThatThePartWasNotT
 
 /// The line that the reason of a forced step suggests turns the step into an accepted one.
 TEST(ForcedSteps, WhatTheReasonSuggestsIsAccepted) {
-  const std::string reason = last_resort_in_turn(fake::closed_box()).plan.disassembly.front().forced->reason;
+  const std::string reason = forced_closed_box().plan.disassembly.front().forced->reason;
   ASSERT_NE(reason.find("as: snap, depth: "), std::string::npos) << reason;
   RunOptions options;
   options.constraints.accept = {{1, 0, "snap", std::stod(reason.substr(reason.find("depth: ") + 7))}};
@@ -169,7 +175,7 @@ TEST(ForcedSteps, AProofIsCitedOnlyWhereItsFirstPartLeavesAllItsOthers) {
 
 TEST(ForcedSteps, AFalseDepthIsRefused) {
   const Assembly assembly = fake::closed_box();
-  const Plan plan = last_resort_in_turn(assembly).plan;
+  const Plan& plan = forced_closed_box().plan;
   for (const double factor : {0.0, 0.5, 1.5, 3.0}) {
     Plan edited = plan;
     edited.disassembly.front().forced->depth *= factor;

@@ -18,18 +18,18 @@ inline PluginRef<SequencePlanner> ref_to(std::string type, std::shared_ptr<Seque
 }
 
 /// The planner, then forced steps.
-inline std::shared_ptr<SequencePlanner> last_resort_after(std::shared_ptr<SequencePlanner> first) {
+inline std::shared_ptr<SequencePlanner> last_resort_after(std::shared_ptr<SequencePlanner> first,
+                                                          const LeastCutParameters& forced = {}) {
   ChainParameters params;
-  params.of = {ref_to("first", std::move(first)),
-               ref_to("least_cut", std::make_shared<LeastCut>(LeastCutParameters{}))};
+  params.of = {ref_to("first", std::move(first)), ref_to("least_cut", std::make_shared<LeastCut>(forced))};
   return std::make_shared<Chain>(params);
 }
 
 /// A run that may force steps after `first`.
 inline RunResult forced_run(const Assembly& assembly, std::shared_ptr<SequencePlanner> first, RunContext context = {},
-                            RunOptions options = {}) {
+                            RunOptions options = {}, const LeastCutParameters& forced = {}) {
   options.force = ForceWhen::last_resort;
-  return run(assembly, setup(push, last_resort_after(std::move(first))), options, context);
+  return run(assembly, setup(push, last_resort_after(std::move(first), forced)), options, context);
 }
 
 }  // namespace dismantle::fake
