@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <tuple>
 #include <vector>
 
+#include "dismantle/ordering/class_changes.h"
 #include "dismantle/run_context.h"
 
 namespace dismantle::order {
@@ -86,6 +88,19 @@ double cheapest(Random& problem, const UnitSet& left, VariantId last, std::size_
   return best;
 }
 
+/// The fewest changes of the class over all orders, one after the other.
+double fewest_changes(Random& problem, const UnitSet& left, VariantId last) {
+  if (left.size() <= 1) return 0;
+  double fewest = kForbidden;
+  left.each([&](std::size_t u) {
+    for (const VariantId v : problem.variants_of(u))
+      if (left.includes(problem.leaving(v)) && !(problem.leaving(v) == left) && problem.may_leave(v, left))
+        fewest = std::min(fewest, (last != kNone && !problem.alike(last, v) ? 1 : 0) +
+                                      fewest_changes(problem, left - problem.leaving(v), v));
+  });
+  return fewest;
+}
+
 Task whole(const Problem& problem) {
   Task task;
   task.start = UnitSet(problem.units(), true);
@@ -123,6 +138,31 @@ TEST(OrderSearch, TheBoundIsNeverAboveTheCheapestOrder) {
     }
   }
   EXPECT_GT(above_zero, 40u) << "a bound that says something";
+}
+
+TEST(OrderSearch, ClassesChangeAtLeastAsOftenAsInTheBestOfAllOrders) {
+  unsigned changes = 0;
+  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+    Random problem(3 + seed % 4, 4000 + seed, true);
+    const Task task = whole(problem);
+    const double truth = fewest_changes(problem, task.start, kNone);
+    if (!(truth < kForbidden)) continue;
+    const auto class_of = [&](VariantId v) { return static_cast<std::size_t>(std::countr_zero(problem.classes(v))); };
+    Effort effort{100000};
+    const auto found = static_cast<double>(least_class_changes(problem, task, class_of, effort));
+    bool pairs = false;  // what leaves in pairs may be counted too low
+    for (std::size_t u = 0; u < problem.units(); ++u) pairs = pairs || !problem.leaves_alone(u);
+    if (pairs)
+      EXPECT_LE(found, truth) << seed;
+    else
+      EXPECT_EQ(found, truth) << seed;
+    changes += !pairs && truth > 0 ? 1 : 0;
+    for (const std::uint64_t little : {0, 1, 3, 10}) {
+      Effort less{little};
+      EXPECT_LE(static_cast<double>(least_class_changes(problem, task, class_of, less)), found) << seed;
+    }
+  }
+  EXPECT_GT(changes, 10u) << "a number that says something";
 }
 
 TEST(OrderSearch, ACheaperOrderThanTheKnownOneIsFoundOrThereIsNone) {

@@ -141,7 +141,8 @@ std::vector<std::string> cost_words(const Plan& plan, bool disassembly) {
   else if (objective.cost > 0 && *objective.least_cost >= objective.cost - 1e-6 * double(plan.assembly.parts.size()))
     out.push_back("no order of these motions costs less");
   else if (objective.cost > 0)
-    out.push_back(fmt::format("no order of these motions costs less than {:.3g}", *objective.least_cost));
+    out.push_back(fmt::format("no order of these motions costs less than {:.3g}: the gap is {:.0f} %",
+                              *objective.least_cost, 100 * (1 - *objective.least_cost / objective.cost)));
   if (std::string first = first_order_words(objective); !first.empty()) out.push_back(std::move(first));
   return out;
 }

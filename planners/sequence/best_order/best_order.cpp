@@ -10,6 +10,7 @@
 #include "best_order/around_largest.h"
 #include "best_order/by_verdict.h"
 #include "best_order/keeper.h"
+#include "best_order/least_cost.h"
 #include "best_order/rewrite.h"
 #include "dismantle/part_set.h"
 
@@ -42,6 +43,7 @@ namespace {
 constexpr std::size_t kMostForExact = 24;
 /// Of the effort: what the first, wider beam gets for a plan of one segment. Beyond kMostForExact, A* has a tenth.
 constexpr std::uint64_t kPerVerdict = 5;  // estimates, for each step of the plan: a verdict takes longer for more parts
+constexpr std::uint64_t kOfRows = 4;      // cheap questions, whether a unit may leave, for each judged step
 constexpr double kWider = 2.0 / 3, kOfBeam = kWider * 0.9 / 2;
 
 blocking::Directions with_used(blocking::Directions directions, const std::vector<Removal>& plan,
@@ -76,7 +78,8 @@ class Rewriting {
         sweep_(oracle.tolerance() > 0 ? std::make_unique<blocking::PairSweep>(query.assembly, oracle) : nullptr),
         directions_(
             with_used(sweep_ ? blocking::directions_of(query.assembly) : blocking::Directions{}, plan_, everywhere_)),
-        effort_{static_cast<std::uint64_t>(params.effort), [&context] { return context.should_stop(); }},
+        given_(static_cast<std::uint64_t>(params.effort)),
+        effort_{given_, [&context] { return context.should_stop(); }},
         sweeps_{effort_.left / 10, effort_.stop},
         scene_{query, oracle, context, sweep_.get(), directions_, everywhere_, {std::nullopt}, sweeps_} {
     const bool turns = std::any_of(query.objective.items.begin(), query.objective.items.end(),
@@ -112,7 +115,9 @@ class Rewriting {
     bound_ = bound;
     by_verdicts(blocks, std::min(before, after_));
     if (kept && !(after_ < kForbidden)) return;
-    if (bounded_) result.least_cost = std::min(bound_, after_ < kForbidden ? after_ : before);
+    // Where a check gives estimates, A* says nothing about verdicts.
+    if (const double least = std::max(bounded_ ? bound_ : 0, least_of_motions(blocks)); bounded_ || least > kSame)
+      result.least_cost = std::min(least, after_ < kForbidden ? after_ : before);
     count(result, before);
   }
 
@@ -163,6 +168,15 @@ class Rewriting {
   void count(SequenceResult& result, double before) const {
     result.counts["order_effort"] += static_cast<double>(spent_);
     result.counts["order_saved"] += before < kForbidden && after_ < kForbidden ? before - after_ : 0;
+  }
+
+  /// What no order of the segments' motions can do without. Last of all: it may use up the tests of pairs.
+  double least_of_motions(const std::vector<Block>& blocks) const {
+    double sum = 0;
+    Effort rows{kOfRows * given_, effort_.stop};
+    for (const Block& block : blocks)
+      if (block.segment) sum += order::least_cost(*block.segment, query_, context_, rows);
+    return sum;
   }
 
   /// Too many steps to try each in each orientation: as drawn, and the one in which the first plan is best all along.
@@ -297,6 +311,7 @@ class Rewriting {
   std::vector<std::size_t> everywhere_;
   std::unique_ptr<blocking::PairSweep> sweep_;
   blocking::Directions directions_;
+  std::uint64_t given_;
   Effort effort_, sweeps_;
   OrderScene scene_;
   std::uint64_t spent_ = 0;
