@@ -12,7 +12,7 @@
 namespace dismantle::mesh_files {
 
 namespace {
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
 
 std::string shown(std::string_view word) {
   std::string s(word.substr(0, 40));

@@ -1,7 +1,6 @@
 #include "scene.h"
 
 #include <assimp/DefaultIOSystem.h>
-#include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -13,8 +12,8 @@
 #include <string_view>
 
 #include "appearance.h"
+#include "dae.h"
 #include "dismantle/errors.h"
-#include "dismantle/geometry/length_unit.h"
 #include "dismantle/referenced_file.h"
 #include "gltf.h"
 #include "gltf_document.h"
@@ -33,7 +32,7 @@ Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
 }
 
 /// The base colour of a material; nothing for the default material that assimp adds to files without one.
-std::optional<Rgba> colour_of(const aiMaterial& material, bool linear) {
+std::optional<Rgba> colour_of(const aiMaterial& material) {
   aiString name;
   if (material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS &&
       std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME)
@@ -43,7 +42,7 @@ std::optional<Rgba> colour_of(const aiMaterial& material, bool linear) {
       material.Get(AI_MATKEY_COLOR_DIFFUSE, colour) != aiReturn_SUCCESS)
     return std::nullopt;
   return rgba(static_cast<double>(colour.r), static_cast<double>(colour.g), static_cast<double>(colour.b),
-              static_cast<double>(colour.a), linear);
+              static_cast<double>(colour.a), true);
 }
 
 /// Opens the file itself and the referenced files that may_read_referenced() allows.
@@ -69,11 +68,9 @@ class ReferencedFiles : public Assimp::DefaultIOSystem {
 
 class SceneReader {
  public:
-  /// `linear`: colours are linear light.
-  SceneReader(const std::filesystem::path& file, const aiScene& scene, bool linear)
-      : file_(file), scene_(scene), linear_(linear) {}
+  SceneReader(const std::filesystem::path& file, const aiScene& scene) : file_(file), scene_(scene) {}
 
-  std::vector<RawPart> read(bool ignore_root_transform) {
+  std::vector<RawPart> read() {
     struct Visit {
       const aiNode* node;
       Eigen::Matrix4d above;
@@ -87,8 +84,7 @@ class SceneReader {
       pending.pop_back();
       if (++visited > reader_process::kInputLimits.instances)
         fail(fmt::format("more than {} nodes", reader_process::kInputLimits.instances));
-      Eigen::Matrix4d to_world = visit.above;
-      if (visit.node != scene_.mRootNode || !ignore_root_transform) to_world *= matrix(visit.node->mTransformation);
+      const Eigen::Matrix4d to_world = visit.above * matrix(visit.node->mTransformation);
       const std::string id = std::to_string(visited);
       add(*visit.node, id, to_world, visit.parents, visit.instances);
       std::vector<std::string> path = visit.parents, instances = visit.instances;
@@ -129,9 +125,8 @@ class SceneReader {
       const aiMesh& mesh = *scene_.mMeshes[node.mMeshes[i]];
       if (part.name.empty()) part.name = mesh.mName.C_Str();
       append(mesh, to_world, part);
-      colour.add(mesh.mMaterialIndex < scene_.mNumMaterials
-                     ? colour_of(*scene_.mMaterials[mesh.mMaterialIndex], linear_)
-                     : std::nullopt);
+      colour.add(mesh.mMaterialIndex < scene_.mNumMaterials ? colour_of(*scene_.mMaterials[mesh.mMaterialIndex])
+                                                            : std::nullopt);
     }
     part.product = part.name;
     part.colour = colour.get();
@@ -175,7 +170,6 @@ class SceneReader {
 
   const std::filesystem::path& file_;
   const aiScene& scene_;
-  const bool linear_;
   std::vector<RawPart> parts_;
   std::size_t total_ = 0;
   bool other_primitives_ = false;
@@ -186,13 +180,12 @@ class SceneReader {
 PartsOfFile read_scene(const std::filesystem::path& file) {
   const std::string ending = lower_case(file.extension().string());
   if (ending == ".3mf") return read_3mf(file);
-  if (ending != ".dae" && version_of_gltf(file) != 1) return read_gltf(file);
+  if (ending == ".dae") return read_dae(file);
+  if (version_of_gltf(file) != 1) return read_gltf(file);
   try {
     std::string refused;
     Assimp::Importer importer;
     importer.SetIOHandler(new ReferencedFiles(file, refused));  // the importer owns it
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
     if (!scene || !scene->mRootNode) {
       const std::string why = importer.GetErrorString();
@@ -204,12 +197,8 @@ PartsOfFile read_scene(const std::filesystem::path& file) {
         throw InputError(file.string(), fmt::format("this is no {} file, or it is cut off", ending));
       throw InputError(file.string(), "cannot be read: " + (why.empty() ? "no scene in it" : why));
     }
-    // assimp puts a conversion to metres into the root node of a DAE scene; parts keep the units of their file.
-    const bool dae = ending == ".dae";
-    PartsOfFile out{SceneReader(file, *scene, !dae).read(dae), {}, {}};
-    const std::string unit =
-        dae ? unit_of_length(matrix(scene->mRootNode->mTransformation).topLeftCorner<3, 3>().col(0).norm()) : "m";
-    for (auto& part : out.parts) part.unit = unit;
+    PartsOfFile out{SceneReader(file, *scene).read(), {}, {}};
+    for (auto& part : out.parts) part.unit = "m";
     return out;
   } catch (const Error&) {
     throw;

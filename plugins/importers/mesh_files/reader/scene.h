@@ -1,4 +1,4 @@
-/// Reads files with several parts: glTF, 3MF, and with assimp DAE and glTF 1.
+/// Reads files with several parts: glTF, 3MF, DAE, and with assimp glTF 1.
 #pragma once
 
 #include <filesystem>

@@ -34,6 +34,7 @@ class XmlEvents {
  public:
   std::function<void(const XmlTag&)> start;
   std::function<void()> end;
+  std::function<void(std::string_view)> text;   ///< a piece of character data
   std::map<std::string, std::string> prefixes;  ///< name spaces that were declared so far
 
   XmlEvents() : parser_(XML_ParserCreateNS(nullptr, '|')) {
@@ -48,6 +49,11 @@ class XmlEvents {
             if (events.end) events.end();
           });
         });
+    XML_SetCharacterDataHandler(parser_, [](void* self, const char* bytes, int length) {
+      static_cast<XmlEvents*>(self)->guarded([&](XmlEvents& events) {
+        if (events.text) events.text({bytes, static_cast<std::size_t>(length)});
+      });
+    });
     XML_SetUnknownEncodingHandler(
         parser_, [](void*, const char* name, XML_Encoding* encoding) { return single_byte(name, *encoding); }, nullptr);
     XML_SetStartNamespaceDeclHandler(parser_, [](void* self, const char* prefix, const char* uri) {
