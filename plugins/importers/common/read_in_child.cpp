@@ -72,7 +72,8 @@ class Failures {
                        program_.missing));
   }
 
-  void check(const process::End& end, const StreamReader& stream) const {
+  /// `phase`: the last one that the program reported.
+  void check(const process::End& end, const StreamReader& stream, const std::string& phase) const {
     if (end.out_of_wall || end.out_of_cpu)
       fail(fmt::format("reading it took longer than {:g} s: raise {}.time_limit, or {}", limits_.seconds,
                        program_.parameters, program_.instead));
@@ -81,7 +82,8 @@ class Failures {
                        program_.instead));
     if (end.signal != 0) {
       if (out_of_memory(end)) fail_for_memory();
-      fail(fmt::format("{} crashed on it (signal {}, {}): {}", program_.library, end.signal, ::strsignal(end.signal),
+      fail(fmt::format("{} crashed on it{} (signal {}, {}){}: {}", program_.library,
+                       phase.empty() ? "" : " while " + phase, end.signal, ::strsignal(end.signal), said(end),
                        program_.instead));
     }
     if (const auto& failure = stream.failure()) {
@@ -136,7 +138,9 @@ std::vector<RawPart> read_in_child(const fs::path& file, const ReaderProgram& pr
   const std::string name = file.filename().string();
   const Failures failures(file, program, limits);
   failures.check_program();
+  std::string last_phase;
   StreamReader stream(max_triangles, [&](const std::string& phase, std::size_t done, std::size_t total) {
+    last_phase = phase;
     context.progress(phase, done, total, name);
   });
   process::Program reader;
@@ -151,7 +155,7 @@ std::vector<RawPart> read_in_child(const fs::path& file, const ReaderProgram& pr
     throw InputError(file.string(), e.what());
   }
   if (context.should_stop()) throw Error("stopped while reading " + file.string());
-  failures.check(end, stream);
+  failures.check(end, stream, last_phase);
   for (const auto& warning : stream.warnings()) context.log(LogLevel::warning, fmt::format("{}: {}", name, warning));
   for (const auto& note : stream.notes()) context.log(LogLevel::info, fmt::format("{}: {}", name, note));
   auto parts = stream.take_parts();

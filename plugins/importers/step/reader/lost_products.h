@@ -1,4 +1,4 @@
-/// Products of a file that gave no shape.
+/// Products of a file that gave no shape, or not all of it.
 #pragma once
 
 #include <STEPCAFControl_Reader.hxx>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "product_names.h"
+#include "structure.h"
 
 namespace dismantle::step_import {
 
@@ -16,7 +17,8 @@ struct LostProduct {
 };
 
 /// Compares the products that the file declares with what was transferred. Assemblies and documents do not count. Those
-/// that lack more than others of their name come last. `reader`: after the transfer.
-std::vector<LostProduct> lost_products(STEPCAFControl_Reader& reader, TextEncoding encoding);
+/// that lack more than others of their name come last. Products of which bodies are missing, solids that are in no
+/// product, and shells without some of their faces are among them. `reader`: after the transfer.
+std::vector<LostProduct> lost_products(STEPCAFControl_Reader& reader, const UnreadItems& unread, TextEncoding encoding);
 
 }  // namespace dismantle::step_import

@@ -1,13 +1,14 @@
 // step_reader FILE LINEAR LINEAR_OF_ASSEMBLY ANGULAR MAX_TRIANGLES: reads a STEP file and writes its bodies to standard
 // output in the format of stream_format.h. The plugin starts it as a separate process because Open CASCADE may
 // crash or hang.
-#include <unistd.h>
-
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <BRepBndLib.hxx>
 #include <Bnd_Box.hxx>
 #include <IFSelect_ReturnStatus.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_InterfaceModel.hxx>
 #include <Interface_Static.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <STEPControl_Reader.hxx>
@@ -27,8 +28,8 @@
 #include <memory>
 #include <set>
 #include <sstream>
-#include <string>
 #include <stdexcept>
+#include <string>
 
 #include "compressed.h"
 #include "dismantle/geometry/length_unit.h"
@@ -36,6 +37,7 @@
 #include "mapped_items.h"
 #include "product_tree.h"
 #include "stream_writer.h"
+#include "structure.h"
 #include "tessellate.h"
 #include "units.h"
 
@@ -99,7 +101,7 @@ class Converter {
     std::vector<AbsentBody> more;
     for (const AbsentBody& absent : tree.absent)
       if (absent.by_meaning) hidden.insert(&absent);
-    for (const LostProduct& lost : lost_products(reader_, encoding_)) {
+    for (const LostProduct& lost : lost_products(reader_, unread_, encoding_)) {
       bool known = false;
       for (AbsentBody& absent : tree.absent) {
         if (absent.name != lost.name || hidden.contains(&absent)) continue;
@@ -141,6 +143,12 @@ class Converter {
       return {};
     }
     find_unit(reader.ChangeReader().Model());
+    if (const std::string endless = endless_structure(reader.ChangeReader(), encoding_); !endless.empty()) {
+      out_.failure(Failure::unreadable, endless);
+      return {};
+    }
+    unread_ = replace_unread_items(reader.ChangeReader(), *text);
+    print_first_error(*reader.ChangeReader().Model());
     for (const std::string& refused : place_mapped_items(reader.ChangeReader())) {
       out_.failure(Failure::unreadable, refused);
       return {};
@@ -152,6 +160,16 @@ class Converter {
       return {};
     }
     return document;
+  }
+
+  /// For the message of a crash.
+  static void print_first_error(const Interface_InterfaceModel& model) {
+    for (int i = 1; i <= model.NbEntities(); ++i)
+      if (const Handle(Interface_Check) check = model.Check(i, Standard_True); check->HasFailed()) {
+        std::fprintf(stderr, "first error in the file: %s %s: %s\n", model.StringLabel(model.Value(i))->ToCString(),
+                     type_of(model.Value(i)).c_str(), check->CFail(1));
+        return;
+      }
   }
 
   std::unique_ptr<std::istream> text_of_file() const {
@@ -259,6 +277,7 @@ class Converter {
   const Arguments& arguments_;
   StreamWriter& out_;
   STEPCAFControl_Reader reader_;
+  UnreadItems unread_;
   TextEncoding encoding_ = TextEncoding::utf8;
   double millimetres_ = 1;
   TopTools_DataMapOfShapeInteger index_;  // of distinct bodies, without location

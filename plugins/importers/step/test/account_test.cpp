@@ -159,6 +159,127 @@ TEST(StepAccount, ATessellatedSolidIsReadOrNamed) {
   EXPECT_FALSE(in.parts[1].by_meaning);
 }
 
+/// Adds an entity, "#91000", to the items of the representation of the last part of two.
+std::string with_item(const std::string& entity, const Scratch& scratch) {
+  std::string text = two_parts("plate", "cover", scratch);
+  const auto items = text.find('(', text.find('(', text.rfind("ADVANCED_BREP_SHAPE_REPRESENTATION")) + 1);
+  text.insert(items + 1, "#91000,");
+  return text.insert(text.rfind("ENDSEC;"), entity);
+}
+
+TEST(StepAccount, BodiesOfOtherKindsBesideASolidAreNamed) {
+  const Scratch scratch;
+  const std::string at =
+      "#91001=AXIS2_PLACEMENT_3D('',#91002,$,$);\n#91002=CARTESIAN_POINT('',(0.,0.,9.));\n"
+      "#91003=AXIS1_PLACEMENT('',#91002,$);\n";
+  for (const auto& [entity, type] : std::vector<std::pair<std::string, std::string>>{
+           {"CSG_SOLID('',#91004);\n#91004=BLOCK('',#91001,1.,1.,1.)", "CSG_SOLID"},
+           {"BLOCK('',#91001,1.,1.,1.)", "BLOCK"},
+           {"SPHERE('',1.,#91002)", "SPHERE"},
+           {"TORUS('',#91003,2.,1.)", "TORUS"},
+           {"RIGHT_CIRCULAR_CYLINDER('',#91003,1.,1.)", "RIGHT_CIRCULAR_CYLINDER"},
+           {"EXTRUDED_AREA_SOLID('',$,$,1.)", "EXTRUDED_AREA_SOLID"},
+           {"REVOLVED_AREA_SOLID('',$,#91003,1.)", "REVOLVED_AREA_SOLID"},
+           {"HALF_SPACE_SOLID('',$,.T.)", "HALF_SPACE_SOLID"},
+           {"BOOLEAN_RESULT('',.UNION.,#91000,#91000)", "BOOLEAN_RESULT"},
+           {"SWEPT_DISK_SOLID('',$,0.1,$,0.,1.)", "SWEPT_DISK_SOLID"},
+           {"TESSELLATED_SOLID('',(),$)", "TESSELLATED_SOLID"},
+           {"MANIFOLD_SOLID_BREP('',#91000)", "MANIFOLD_SOLID_BREP"}}) {
+    const Read in = read(scratch.write("a.step", with_item("#91000=" + entity + ";\n" + at, scratch)));
+    ASSERT_GE(in.parts.size(), 3u) << type << in.log;
+    EXPECT_EQ(in.parts[0].problem + in.parts[1].problem, "") << type;
+    EXPECT_EQ(in.parts[2].name, "cover:" + type);
+    EXPECT_NE(in.parts[2].problem.find(type), std::string::npos) << in.parts[2].problem;
+    EXPECT_FALSE(in.parts[2].by_meaning);
+  }
+  const Read absent = read(scratch.write("a.step", with_item("", scratch)));
+  ASSERT_EQ(absent.parts.size(), 3u) << absent.log;
+  EXPECT_NE(absent.parts[2].problem.find("#91000, which the file lacks"), std::string::npos) << absent.parts[2].problem;
+  const Read point = read(scratch.write("a.step", with_item("#91000=CARTESIAN_POINT('',(0.,0.,9.));\n", scratch)));
+  EXPECT_EQ(point.parts.size(), 2u) << "no body";
+}
+
+TEST(StepAccount, FacesThatAreMissingAreNamed) {
+  const Scratch scratch;
+  std::string text = two_parts("plate", "cover", scratch);
+  text.replace(text.find("ADVANCED_FACE"), 13, "ADVANCED_FACX");
+  const Read in = read(scratch.write("a.step", text));
+  ASSERT_EQ(in.parts.size(), 3u) << in.log;
+  EXPECT_NE(in.parts[2].problem.find("1 of its 6 faces"), std::string::npos) << in.parts[2].problem;
+}
+
+TEST(StepAccount, SolidsOfNoProductAreNamed) {
+  const Scratch scratch;
+  std::string text = two_parts("plate", "cover", scratch);
+  const auto solid = text.rfind("MANIFOLD_SOLID_BREP");
+  const std::string again = text.substr(solid, text.find(';', solid) + 1 - solid);
+  text.insert(text.rfind("ENDSEC;"), "#91000=" + again + "\n");
+  const Read in = read(scratch.write("a.step", text));
+  ASSERT_EQ(in.parts.size(), 3u) << in.log;
+  EXPECT_NE(in.parts[2].problem.find("in no product"), std::string::npos) << in.parts[2].problem;
+}
+
+/// Products that use each other: `levels` of them, each `times` the next, the last the given one.
+std::string used(int levels, int times, const std::string& last, const Scratch& scratch) {
+  std::string text = two_parts("plate", "cover", scratch);
+  std::smatch found;
+  if (!std::regex_search(text, found, std::regex(R"(#(\d+)\s*=\s*PRODUCT_DEFINITION\()"))) return {};
+  const std::string root = "#" + found[1].str();
+  std::string more;
+  for (int i = 0; i < levels; ++i) {
+    const std::string own = i == 0 ? root : "#" + std::to_string(92000 + i);
+    const std::string next = i + 1 < levels ? "#" + std::to_string(92001 + i) : last == "root" ? root : last;
+    if (i > 0) more += own + "=PRODUCT_DEFINITION('','',$,$);\n";
+    for (int k = 0; k < times; ++k)
+      more += "#" + std::to_string(100000 + 100 * i + k) + "=NEXT_ASSEMBLY_USAGE_OCCURRENCE('','',''," + own + "," +
+              next + ",$);\n";
+  }
+  if (last != "root") more += last + "=PRODUCT_DEFINITION('','',$,$);\n";
+  return text.insert(text.rfind("ENDSEC;"), more);
+}
+
+TEST(StepAccount, ProductsWithoutAnEndAreRefusedByName) {
+  const Scratch scratch;
+  for (const auto& [text, said] : std::vector<std::pair<std::string, std::string>>{
+           {used(1, 1, "root", scratch), "the product 'root' contains itself"},
+           {used(5, 1, "root", scratch), "contains itself"},
+           {used(30, 2, "#91000", scratch), "stands for more than 1000000 instances"},
+           {used(100, 1, "#91000", scratch), "nested more than 64 deep"}}) {
+    const std::string error = input_error([&] { read(scratch.write("a.step", text)); });
+    EXPECT_NE(error.find(said), std::string::npos) << said << "|" << error;
+  }
+  EXPECT_EQ(read(scratch.write("a.step", used(5, 3, "#91000", scratch))).parts[0].problem, "");
+}
+
+TEST(StepAccount, RepresentationsWithoutAnEndAreRefusedByName) {
+  const Scratch scratch;
+  std::string text = two_parts("plate", "cover", scratch);
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(text, found, std::regex(R"(#(\d+)\s*=\s*ADVANCED_BREP_SHAPE_REPRESENTATION)")));
+  const std::string id = "#" + found[1].str();
+  const std::string itself = "#91000=SHAPE_REPRESENTATION_RELATIONSHIP('',''," + id + "," + id + ");\n";
+  const std::string mapped = "#91000=MAPPED_ITEM('',#91001,#91002);\n#91001=REPRESENTATION_MAP(#91002," + id +
+                             ");\n#91002=AXIS2_PLACEMENT_3D('',#91003,$,$);\n#91003=CARTESIAN_POINT('',(0.,0.,9.));\n";
+  std::string with_mapped = text;
+  const auto items = text.find('(', text.find('(', text.find("ADVANCED_BREP_SHAPE_REPRESENTATION")) + 1);
+  with_mapped.insert(items + 1, "#91000,");
+  std::string bomb;
+  for (int i = 0; i < 30; ++i)
+    for (int k = 0; k < 3; ++k)
+      bomb += "#" + std::to_string(92000 + 10 * i + k) + "=SHAPE_REPRESENTATION_RELATIONSHIP('','',#" +
+              std::to_string(93000 + i) + "," + (i < 29 ? "#" + std::to_string(93001 + i) : id) + ");\n" +
+              (k == 0 ? "#" + std::to_string(93000 + i) + "=SHAPE_REPRESENTATION('',(),$);\n" : "");
+  for (const auto& [whole, more, said] :
+       std::vector<std::tuple<std::string, std::string, std::string>>{{text, itself, "contains itself"},
+                                                                      {with_mapped, mapped, "contains itself"},
+                                                                      {text, bomb, "stands for more"}}) {
+    std::string changed = whole;
+    changed.insert(changed.rfind("ENDSEC;"), more);
+    const std::string error = input_error([&] { read(scratch.write("a.step", changed)); });
+    EXPECT_NE(error.find(said), std::string::npos) << said << "|" << error;
+  }
+}
+
 TEST(StepAccount, SeveralLengthUnitsAreReadInMillimetresWithAWarning) {
   const Scratch scratch;
   std::string text = two_parts("a", "b", scratch, "INCH");
