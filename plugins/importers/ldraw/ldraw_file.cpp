@@ -76,9 +76,12 @@ class Parser {
     content_ = false;
     skipping_ = false;
     first_ = true;
+    textured_ = {};
+    stored_.clear();
   }
 
   void finish() {
+    end_texture();
     if (skipping_ || (current_.name.empty() && !content_)) return;
     const std::string key = name_key(current_.name.empty() ? file_.filename().string() : current_.name);
     if (out_.files.empty()) out_.first = key;
@@ -92,6 +95,7 @@ class Parser {
     if (type == "0") return statement(words);
     if (skipping_ || type.empty()) return;
     content_ = true;
+    textured_.other = textured_.other || (textured_.fallback && type != "2" && type != "5");
     if (type == "1") return reference(words);
     if (type == "3" || type == "4") return polygon(words, type == "3" ? 3 : 4);
     if (type != "2" && type != "5") fail(fmt::format("'{}' is no type of line", std::string(type.substr(0, 20))));
@@ -128,7 +132,58 @@ class Parser {
       turn(words);
     } else if (word == "!COLOUR") {
       colour(words);
+    } else if (word == "MLCAD") {
+      if (words.next() == "HIDE") hide(words, "it is hidden in the file (MLCAD HIDE)");
+    } else if (word == "GHOST") {
+      hide(words, "it is hidden in the file (GHOST)");
+    } else if (word == "BUFEXCHG") {
+      exchange(words);
+    } else if (word == "!TEXMAP" || word == "!:") {
+      texture(word, words);
     }
+  }
+
+  void hide(Words words, const std::string& why) {
+    if (words.next() != "1") return;
+    reference(words);
+    current_.hidden.push_back({std::move(current_.references.back()), why});
+    current_.references.pop_back();
+  }
+
+  /// MLCad's buffers: what was added since the buffer was stored is taken away again.
+  void exchange(Words& words) {
+    const std::string buffer(words.next());
+    const std::string_view what = words.next();
+    if (what == "STORE") stored_[buffer] = current_.references.size();
+    const auto found = stored_.find(buffer);
+    if (what != "RETRIEVE" || found == stored_.end()) return;
+    auto& all = current_.references;
+    for (std::size_t i = found->second; i < all.size(); ++i)
+      current_.hidden.push_back({std::move(all[i]), "the file takes it away again (BUFEXCHG)"});
+    all.resize(std::min(all.size(), found->second));
+    for (StepEnd& step : current_.steps) step.before = std::min(step.before, all.size());
+  }
+
+  /// Lines behind "0 !:" are for programs that draw textures, those behind FALLBACK for the others. Only one of both
+  /// is read: the fallback, if it has any surface.
+  void texture(std::string_view word, Words& words) {
+    if (word == "!:") {
+      if (textured_.next) read(words.rest());
+      if (textured_.open && !textured_.fallback) textured_.lines.emplace_back(words.rest());
+      textured_.next = false;
+      return;
+    }
+    const std::string_view what = words.next();
+    if (what == "START") textured_ = {.open = true};
+    if (what == "FALLBACK") textured_.fallback = textured_.open;
+    if (what == "NEXT") textured_.next = true;
+    if (what == "END") end_texture();
+  }
+
+  void end_texture() {
+    const Textured block = std::exchange(textured_, {});
+    if (!block.other)
+      for (const std::string& line : block.lines) read(line);
   }
 
   void bfc(Words& words) {
@@ -210,6 +265,13 @@ class Parser {
   bool first_ = true;      // the next statement is the description
   bool content_ = false;   // the block holds a line
   bool skipping_ = false;  // behind NOFILE
+  struct Textured {        // a block of !TEXMAP
+    bool open = false, fallback = false, next = false;
+    bool other = false;  // its fallback has surfaces
+    std::vector<std::string> lines{};
+  };
+  Textured textured_;
+  std::map<std::string, std::size_t> stored_;  // MLCad's buffers: numbers of references
 };
 
 }  // namespace

@@ -26,6 +26,12 @@ struct Reference {
   bool inverted = false;  ///< by BFC INVERTNEXT
 };
 
+/// A line of type 1 that the file itself takes out of the model.
+struct Hidden {
+  Reference reference;
+  std::string why;
+};
+
 /// A line of type 3 or 4.
 struct Polygon {
   std::vector<Eigen::Vector3d> corners;  ///< three or four
@@ -54,6 +60,7 @@ struct LdrawFile {
   std::string category;     ///< of !CATEGORY; empty: the first word of the description
   std::string type;         ///< of !LDRAW_ORG: "Part", "Shortcut", "Primitive", "Model"; empty: not stated
   std::vector<Reference> references;
+  std::vector<Hidden> hidden;
   std::vector<Polygon> polygons;
   std::vector<StepEnd> steps;
   std::vector<Colour> colours;

@@ -114,6 +114,7 @@ class Walk {
       step_parts.insert(step_parts.end(), added.begin(), added.end());
       all.insert(all.end(), added.begin(), added.end());
     }
+    for (const Hidden& hidden : file.hidden) add_hidden(hidden, place);
     if (!file.polygons.empty()) {  // a surface that the model has by itself
       RawPart part = raw(file.description.empty() ? key : file.description, place, key);
       add_polygons(file, place.placement, place.inverted, part.mesh);
@@ -170,6 +171,15 @@ class Walk {
   void add_repeated(const Reference& r, const Place& place) {
     RawPart part = raw(name_of(r.name, *library_.find(r.name)->file), place, r.name);
     part.problem = "the model has the same line twice: the same part in the same place";
+    part.by_meaning = true;
+    push(std::move(part));
+  }
+
+  void add_hidden(const Hidden& hidden, const Place& place) {
+    const std::optional<Found> found = library_.find(hidden.reference.name);
+    RawPart part =
+        raw(found ? name_of(hidden.reference.name, *found->file) : hidden.reference.name, place, hidden.reference.name);
+    part.problem = hidden.why;
     part.by_meaning = true;
     push(std::move(part));
   }

@@ -69,6 +69,47 @@ TEST_F(Ldraw, PartsHaveTheirPlaceSizeAndColour) {
   EXPECT_NEAR(signed_volume(parts[1].mesh), 2 * 8 * 4 * 9.6, 1e-9);
 }
 
+TEST_F(Ldraw, WhatTheFileHidesIsNoted) {
+  const auto line = [](int x) { return "1 4 " + std::to_string(x) + " 0 0 1 0 0 0 1 0 0 0 1 brick.dat\n"; };
+  const auto parts = read("0 Tower\n" + line(0) + "0 STEP\n0 MLCAD HIDE " + line(100) + "0 GHOST " + line(200) +
+                          "0 BUFEXCHG A STORE\n" + line(300) + "0 STEP\n0 BUFEXCHG A RETRIEVE\n" + line(400) +
+                          "0 BUFEXCHG B RETRIEVE\n0 MLCAD BTG a group\n");
+  ASSERT_EQ(parts.size(), 5u);
+  int here = 0;
+  for (const RawPart& part : parts) {
+    EXPECT_EQ(part.name, "Brick 1 x 1");
+    EXPECT_EQ(part.by_meaning, !part.problem.empty()) << part.problem;
+    here += part.problem.empty();
+  }
+  EXPECT_EQ(here, 2);
+  EXPECT_NE(parts[2].problem.find("MLCAD HIDE"), std::string::npos);
+  EXPECT_NE(parts[4].problem.find("BUFEXCHG"), std::string::npos);
+  EXPECT_LT((parts[1].mesh.box().lo - Eigen::Vector3d(160, 0, -9.6)).norm(), 1e-9);
+  const auto steps = order("0 Tower\n" + line(0) + "0 STEP\n0 BUFEXCHG A STORE\n" + line(300) +
+                           "0 STEP\n0 BUFEXCHG A RETRIEVE\n" + line(400) + "0 STEP\n");
+  ASSERT_EQ(steps.size(), 2u);
+  EXPECT_EQ(steps[1].parts, (std::vector<std::uint32_t>{1}));
+}
+
+/// Surfaces for programs that draw textures and those for others stand for each other: one of both is read.
+TEST_F(Ldraw, SurfacesWithTexturesAreReadOnce) {
+  const std::string all = box(20, 24, 10), start = "0 !TEXMAP START PLANAR 0 0 0 1 0 0 0 1 0 a.png\n";
+  const auto first = all.find('\n') + 1;
+  const std::string one = all.substr(0, first), rest = all.substr(first);
+  for (const std::string& text :
+       {start + "0 !: " + one + "0 !TEXMAP FALLBACK\n" + one + "0 !TEXMAP END\n" + rest,
+        start + "0 !: " + one + "0 !TEXMAP END\n" + rest,
+        start + "0 !: " + one + "0 !TEXMAP FALLBACK\n0 !TEXMAP END\n" + rest, start + one + "0 !TEXMAP END\n" + rest,
+        rest + start + "0 !: " + one, "0 !TEXMAP NEXT PLANAR 0 0 0 1 0 0 0 1 0 a.png\n0 !: " + one + rest,
+        "0 !TEXMAP NEXT PLANAR 0 0 0 1 0 0 0 1 0 a.png\n" + all, all + "0 !DATA a.png\n0 !: iVBORw0KGgo=\n"}) {
+    write("library/parts/tile.dat", "0 Tile\n0 !LDRAW_ORG Part\n0 BFC CERTIFY CCW\n" + text);
+    const auto parts = read("0 Tower\n1 4 0 0 0 1 0 0 0 1 0 0 0 1 tile.dat\n1 4 0 50 0 1 0 0 0 1 0 0 0 1 brick.dat\n");
+    ASSERT_EQ(parts.size(), 2u);
+    EXPECT_EQ(parts[0].mesh.triangles.size(), 12u) << text;
+    EXPECT_NEAR(signed_volume(parts[0].mesh), 8 * 4 * 9.6, 1e-9) << text;
+  }
+}
+
 /// Parts in colours whose finish is RUBBER bend; the word may be part of a colour's name.
 TEST_F(Ldraw, PartsInColoursOfRubberAreFlexible) {
   write("library/LDConfig.ldr",
