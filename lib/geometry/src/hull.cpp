@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <string>
 #include <tuple>
 
 namespace dismantle {
@@ -47,14 +48,18 @@ class MemoryStream {
   FILE* file_;
 };
 
+/// Corners after which qhull is stopped: its time grows with the square of the corners that lie in one plane, as those
+/// of a round plate do.
+constexpr std::size_t kMostAdded = 10'000;
+
 class Qhull {
  public:
   /// Runs qhull on `coordinates` (x y z ...); keeps no reference to them.
   Qhull(std::vector<double>& coordinates, FILE* sink) {
     qh_zero(&qh_, sink);
-    char command[] = "qhull Pp";
-    failed_ = qh_new_qhull(&qh_, 3, static_cast<int>(coordinates.size() / 3), coordinates.data(), False, command, sink,
-                           sink) != 0;
+    std::string command = "qhull Pp TA" + std::to_string(kMostAdded);
+    failed_ = qh_new_qhull(&qh_, 3, static_cast<int>(coordinates.size() / 3), coordinates.data(), False, command.data(),
+                           sink, sink) != 0;
   }
   ~Qhull() {
     qh_freeqhull(&qh_, !qh_ALL);
@@ -65,12 +70,19 @@ class Qhull {
   Qhull& operator=(const Qhull&) = delete;
 
   bool failed() const { return failed_; }
+  /// Corners, and where qhull was stopped also the points that it had not looked at.
   std::vector<bool> corner_flags(std::size_t count) {
     std::vector<bool> flags(count, false);
-    for (vertexT* v = qh_.vertex_list; v && v->next; v = v->next) {
-      const int id = qh_pointid(&qh_, v->point);
+    const auto mark = [&](pointT* point) {
+      const int id = qh_pointid(&qh_, point);
       if (id >= 0) flags[static_cast<std::size_t>(id)] = true;
-    }
+    };
+    std::size_t corners = 0;
+    for (vertexT* v = qh_.vertex_list; v && v->next; v = v->next, ++corners) mark(v->point);
+    if (corners < kMostAdded) return flags;
+    for (facetT* f = qh_.facet_list; f && f->next; f = f->next)
+      for (setT* left : {f->outsideset, f->coplanarset})
+        for (int i = 0, n = left ? qh_setsize(&qh_, left) : 0; i < n; ++i) mark(static_cast<pointT*>(left->e[i].p));
     return flags;
   }
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "dismantle/testing/shapes.h"
 
@@ -92,6 +94,27 @@ TEST(Separate, WhatItClaimsHoldsForEveryPointAndOverlapIsNeverApart) {
     EXPECT_FALSE(separate(a, b).has_value());
   }
   EXPECT_GT(apart, 100);
+}
+
+/// The work of qhull grows with the square of the corners in one plane, so it is stopped; nothing may be lost by that.
+TEST(Hull, OfVeryManyCornersItIsASuperset) {
+  Rng rng(7);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 6000; ++i)
+    for (const double z : {0.0, 1.0}) {
+      const double angle = 2 * std::numbers::pi * i / 6000;
+      points.emplace_back(10 * std::cos(angle), 10 * std::sin(angle), z);
+      points.emplace_back(rng.uniform(-7, 7), rng.uniform(-7, 7), rng.uniform(0.1, 0.9));
+    }
+  const std::vector<Vec3> corners = hull_corners(points);
+  EXPECT_LT(corners.size(), 12'500u) << "nearly all points within are left out";
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 d = random_vector(rng, -1, 1).normalized();
+    double all = -1e9, kept = -1e9;
+    for (const Vec3& p : points) all = std::max(all, d.dot(p));
+    for (const Vec3& p : corners) kept = std::max(kept, d.dot(p));
+    EXPECT_NEAR(all, kept, 1e-12);
+  }
 }
 
 TEST(Separate, TouchingHullsAreNotApart) {

@@ -36,6 +36,9 @@ bool share_vertex(const Triangle& a, const Triangle& b) {
   return false;
 }
 
+/// Triangles looked at for each of the mesh, on average: the boxes of slivers that meet in a corner all overlap.
+constexpr std::size_t kPairs = 1000;
+
 }  // namespace
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> self_crossings(const Mesh& mesh, std::size_t limit,
@@ -45,12 +48,15 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> self_crossings(const Mesh& 
   const TriangleBvh bvh(mesh);
   const double margin = 1e-7 * mesh.box().size().norm();  // about the rounding of coordinates in files
   const std::size_t n = mesh.triangles.size(), tested = std::min(n, max_tested);
-  for (std::size_t k = 0; k < tested && found.size() < limit; ++k) {
+  std::size_t left = kPairs * n;
+  for (std::size_t k = 0; k < tested && found.size() < limit && left > 0; ++k) {
     const auto t = static_cast<std::uint32_t>(k * n / tested);
     Aabb box;
     for (const auto& p : bvh.corners(t)) box.extend(p);
     bvh.overlapping(box, [&](std::uint32_t other) {
-      if (found.size() >= limit || (tested == n ? other <= t : other == t)) return;
+      if (found.size() >= limit || left == 0) return;
+      --left;
+      if (tested == n ? other <= t : other == t) return;
       if (!share_vertex(mesh.triangles[t], mesh.triangles[other]) && cross(bvh.corners(t), bvh.corners(other), margin))
         found.emplace_back(std::min(t, other), std::max(t, other));
     });

@@ -11,7 +11,7 @@
 namespace dismantle {
 
 /// The points of `points` that are corners of their convex hull, in the order given. Flat or degenerate sets are
-/// allowed; for them the result is a superset of the corners.
+/// allowed; for them, and for sets with more than 10 000 corners, the result is a superset of the corners.
 DISMANTLE_API std::vector<Eigen::Vector3d> hull_corners(std::span<const Eigen::Vector3d> points);
 
 /// Plane that has all of A on one side and all of B on the other.

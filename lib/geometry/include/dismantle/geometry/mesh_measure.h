@@ -39,7 +39,8 @@ DISMANTLE_API std::vector<std::uint32_t> shells_of(const Mesh& mesh, std::size_t
 DISMANTLE_API Eigen::Vector3d oriented_box(const Mesh& mesh);
 
 /// Pairs of triangles that share no vertex and cross properly (not just touch), at most `limit` of them.
-/// Tests every triangle up to `max_tested`, else an evenly spread subset of that many.
+/// Tests every triangle up to `max_tested`, else an evenly spread subset of that many. Ends after a number of pairs in
+/// proportion to the triangles: a mesh of slivers may be looked at in part.
 DISMANTLE_API std::vector<std::pair<std::uint32_t, std::uint32_t>> self_crossings(const Mesh& mesh, std::size_t limit,
                                                                                   std::size_t max_tested = 200'000);
 
