@@ -79,6 +79,7 @@ class Walk {
       add_part(library_.first(), *found, top);
     else
       model(library_.first(), *found->file, top);
+    for (const auto& [hidden, place] : hidden_) add_hidden(hidden, place);
     return std::move(out_);
   }
 
@@ -114,7 +115,7 @@ class Walk {
       step_parts.insert(step_parts.end(), added.begin(), added.end());
       all.insert(all.end(), added.begin(), added.end());
     }
-    for (const Hidden& hidden : file.hidden) add_hidden(hidden, place);
+    for (const Hidden& hidden : file.hidden) hidden_.emplace_back(hidden, place);
     if (!file.polygons.empty()) {  // a surface that the model has by itself
       RawPart part = raw(file.description.empty() ? key : file.description, place, key);
       add_polygons(file, place.placement, place.inverted, part.mesh);
@@ -260,6 +261,7 @@ class Walk {
   const RunContext& context_;
   PartMeshes meshes_;
   Model out_;
+  std::vector<std::pair<Hidden, Place>> hidden_;  // they come last: others keep their numbers
   std::set<std::string> open_;
   std::size_t used_ = 0;
   std::map<std::string, unsigned> uses_, groups_;
