@@ -1,5 +1,6 @@
 // dismantle replay MODEL|PLAN.json [--order ORDER.csv]
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -121,6 +122,17 @@ Loaded load(const ReplayOptions& options, const Session& session, RunContext& co
   return out;
 }
 
+/// Parts that no step of the order puts in.
+std::vector<std::string> left_over(const Assembly& assembly) {
+  std::vector<std::string> names;
+  for (const Part& part : assembly.parts)
+    if (std::none_of(assembly.reference_order.begin(), assembly.reference_order.end(), [&](const ReferenceStep& step) {
+          return std::find(step.parts.begin(), step.parts.end(), part.id) != step.parts.end();
+        }))
+      names.push_back(part.name);
+  return names;
+}
+
 int replay_order(const ReplayOptions& options) {
   Console console(options.console);
   const Session session(options.config.source());
@@ -150,6 +162,8 @@ int replay_order(const ReplayOptions& options) {
   }
   console.text(fmt::format("{} of {} insertions of the order are possible, {} refused\n", items.size() - refused,
                            items.size(), refused));  // planning may take long
+  const std::vector<std::string> others = left_over(assembly);
+  if (!others.empty()) console.text(fmt::format("not in the order, and not put in: {}\n", fmt::join(others, ", ")));
   std::string text;
   if (!loaded.plan && !options.no_plan) {
     if (const double timeout = session.config().run.timeout; timeout > 0)
@@ -164,6 +178,7 @@ int replay_order(const ReplayOptions& options) {
       {"steps", assembly.reference_order.size()},
       {"possible", items.size() - refused},
       {"refused", refused},
+      {"not_in_order", others},
       {"items", list}};
   if (loaded.plan) {
     const Agreement agreement = agreement_of(order_of(named(assembly.reference_order, assembly)),

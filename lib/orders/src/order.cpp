@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <numbers>
 #include <set>
 #include <sstream>
@@ -47,8 +48,8 @@ void append(const std::vector<Group>& groups, std::size_t index, OrderStep put_i
     append(groups, taken->second, step_of(plan.disassembly[taken->first], plan.assembly), plan, out);
 }
 
-/// The fields of a line; quoted ones may hold commas and doubled quotes.
-std::vector<std::string> fields_of(const std::string& line) {
+/// The fields of a line; quoted ones may hold separators and doubled quotes.
+std::vector<std::string> fields_of(const std::string& line, char separator) {
   std::vector<std::string> fields(1);
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -57,12 +58,30 @@ std::vector<std::string> fields_of(const std::string& line) {
       fields.back() += line[++i];
     else if (c == '"')
       quoted = !quoted;
-    else if (c == ',' && !quoted)
+    else if (c == separator && !quoted)
       fields.emplace_back();
-    else if (c != '\r')
+    else
       fields.back() += c;
   }
   return fields;
+}
+
+std::string without_blanks(const std::string& field) {
+  const auto first = field.find_first_not_of(" \t");
+  return first == std::string::npos ? "" : field.substr(first, field.find_last_not_of(" \t") + 1 - first);
+}
+
+/// Lines that end with LF, CRLF or CR, without a byte order mark: spreadsheets write all of them.
+std::istringstream lines_of(std::istream& in) {
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  for (std::size_t at = text.find('\r'); at != std::string::npos; at = text.find('\r', at)) {
+    if (at + 1 < text.size() && text[at + 1] == '\n')
+      text.erase(at, 1);
+    else
+      text[at] = '\n';
+  }
+  return std::istringstream(text);
 }
 
 }  // namespace
@@ -118,8 +137,10 @@ std::optional<Eigen::Vector3d> direction_named(const std::string& text) {
 }
 
 Order read_order(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(file.string(), "cannot be opened");
+  std::ifstream opened(file);
+  if (!opened) throw InputError(file.string(), "cannot be opened");
+  std::istringstream in = lines_of(opened);
+  char separator = ',';
   std::string line;
   std::size_t number = 0;
   std::map<std::string, std::size_t> columns;
@@ -128,10 +149,11 @@ Order read_order(const std::filesystem::path& file) {
   while (std::getline(in, line)) {
     ++number;
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const std::vector<std::string> fields = fields_of(line);
+    if (columns.empty() && line.find(',') == std::string::npos && line.find(';') != std::string::npos) separator = ';';
+    const std::vector<std::string> fields = fields_of(line, separator);
     const std::string where = fmt::format("{}:{}", file.string(), number);
     if (columns.empty()) {
-      for (std::size_t i = 0; i < fields.size(); ++i) columns.emplace(fields[i], i);
+      for (std::size_t i = 0; i < fields.size(); ++i) columns.emplace(without_blanks(fields[i]), i);
       if (!columns.contains("step") || !columns.contains("part"))
         throw InputError(where, "the header needs the columns 'step' and 'part'");
       continue;
@@ -140,10 +162,10 @@ Order read_order(const std::filesystem::path& file) {
       const auto column = columns.find(name);
       return column == columns.end() || column->second >= fields.size() ? std::string() : fields[column->second];
     };
-    const std::string text = field("step");
+    const std::string text = without_blanks(field("step"));
     double step = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), step);
-    if (error != std::errc() || end != text.data() + text.size())
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(step))
       throw InputError(where, fmt::format("'{}' is no number of a step", text));
     const std::string part = field("part");
     if (part.empty() || !seen.insert(part).second)

@@ -104,8 +104,13 @@ TEST(Order, CsvFilesAreReadAndErrorsHaveAPlace) {
   const Order order = read("step,part,direction\r\n2,\"lid, large\",-z\r\n1,base,\r\n2,pin,0 3 4\r\n");
   EXPECT_EQ(parts_of(order), (std::vector<std::vector<std::string>>{{"base"}, {"lid, large", "pin"}}));
   EXPECT_LT((*order[1].direction - Eigen::Vector3d(0, 0.6, 0.8)).norm(), 1e-12);
+  for (const std::string& text :
+       {std::string("\xEF\xBB\xBFstep,part\n1,base\n2,lid\n2,pin\n"), std::string("step,part\r1,base\r2,lid\r2,pin"),
+        std::string("step;part\n1;base\n2;lid\n2;pin\n"), std::string("step , part\n\n1 ,base\n 2,lid\n2,pin\n")})
+    EXPECT_EQ(parts_of(read(text)), (std::vector<std::vector<std::string>>{{"base"}, {"lid", "pin"}})) << text;
   for (const auto& [text, problem] :
-       {std::pair("part\na\n", ":1: the header needs"), std::pair("step,part\nx,a\n", ":2: 'x' is no"),
+       {std::pair("part\na\n", ":1: the header needs"), std::pair("step,part\nnan,a\n", ":2: 'nan' is no"),
+        std::pair("step,part\n1\n", ":2: no part is named"), std::pair("step,part\nx,a\n", ":2: 'x' is no"),
         std::pair("step,part\n1,a\n2,a\n", ":3: part 'a' is there twice"),
         std::pair("step,part,direction\n1,a,up\n", ":2: 'up' is no direction"),
         std::pair("step,part\n", "it holds no step")}) {
