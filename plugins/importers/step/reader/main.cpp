@@ -137,7 +137,7 @@ class Converter {
       out_.warning(std::string("names are not in UTF-8, as the standard has it: read as ") +
                    (encoding_ == TextEncoding::gb18030 ? "GB18030" : "Latin-1 (Windows-1252)"));
     text->clear();
-    text->seekg(0);
+    text->seekg(begin_of(*text));
     if (reader.ChangeReader().ReadStream(arguments_.file.c_str(), *text) != IFSelect_RetDone) {
       out_.failure(Failure::unreadable, "Open CASCADE cannot read it: the file is damaged or is no STEP file");
       return {};
@@ -160,6 +160,16 @@ class Converter {
       return {};
     }
     return document;
+  }
+
+  /// Where the text begins: behind a byte order mark, which Open CASCADE takes for an error.
+  static std::streamoff begin_of(std::istream& text) {
+    text.seekg(0);
+    char mark[3] = {};
+    text.read(mark, 3);
+    const bool marked = text.gcount() == 3 && std::string(mark, 3) == "\xEF\xBB\xBF";
+    text.clear();
+    return marked ? 3 : 0;
   }
 
   /// For the message of a crash.

@@ -79,6 +79,8 @@ TEST(StepAccount, NamesInOtherEncodings) {
   const Read utf8 = with("Café 日本", "\\X2\\9F7F8F6E\\X0\\ Ü");
   EXPECT_EQ(names(utf8), (std::vector<std::string>{"Café 日本", "齿轮 Ü"}));
   EXPECT_EQ(utf8.log.find("encod"), std::string::npos) << utf8.log;
+  EXPECT_EQ(names(read(scratch.write("a.step", "\xEF\xBB\xBF" + text))),
+            (std::vector<std::string>{"NAME_A", "NAME_B"}));
   EXPECT_EQ(utf8.log.find("UTF-8"), std::string::npos) << utf8.log;
 }
 
