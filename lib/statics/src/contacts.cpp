@@ -19,6 +19,7 @@ using Vec3 = Eigen::Vector3d;
 constexpr double kFacing = 0.94;       // cosine of 20 degrees: facets of two tessellations of one curved surface
 constexpr double kSamePlane = 0.9999;  // cosine of 0.8 degrees
 constexpr double kLean = 0.02;         // cosine: facets of a cylinder; a Morse taper leans by more
+constexpr double kStrip = 1e-6;        // of the gap: narrower strips of contact come from rounding
 constexpr std::size_t kCorners = 16, kSpread = 32;
 
 /// A region where two facets touch. Frame of the world.
@@ -34,6 +35,12 @@ struct Plane {
   double area = 0;
   std::vector<Vec3> points;
 };
+
+double perimeter(const Polygon& p) {
+  double around = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) around += (p[(i + 1) % p.size()] - p[i]).norm();
+  return around;
+}
 
 Aabb box_of(const Polygon& p) {
   Aabb box;
@@ -57,7 +64,7 @@ std::optional<Facet> common(const Polygon& a, const Vec3& na, const Polygon& b, 
   region = clip(clip(region, height, zero + gap), -height, gap - zero);
   if (region.size() < 3) return std::nullopt;
   const double area = area_of(region).norm();
-  if (!(area > 0)) return std::nullopt;
+  if (!(area > 0.5 * kStrip * gap * perimeter(region))) return std::nullopt;
   for (Vec3& p : region) p -= 0.5 * (height.dot(p) - zero) * m;
   return Facet{std::move(region), m, area};
 }
@@ -266,11 +273,8 @@ std::vector<Contact> contacts_of(const std::vector<Plane>& planes, double gap, d
   std::vector<Spread> curved;
   for (const Plane& p : planes) {
     const Polygon hull = hull_in_plane(p.points, p.normal, kCorners);
-    if (p.area > 0 && !rims) {
-      double around = 0;
-      for (std::size_t i = 0; i < hull.size(); ++i) around += (hull[(i + 1) % hull.size()] - hull[i]).norm();
-      if (area_of(hull).norm() < 0.25 * gap * around) continue;  // thinner than the gap: a rim
-    }
+    if (p.area > 0 && !rims && area_of(hull).norm() < 0.25 * gap * perimeter(hull))
+      continue;  // thinner than the gap: a rim
     if (p.area == 0 || p.area > 0.08 * all || planes.size() <= 12)
       contacts.push_back({0, 0, p.normal, hull});
     else
