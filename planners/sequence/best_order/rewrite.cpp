@@ -42,8 +42,12 @@ std::vector<Block> blocks_of(const std::vector<Removal>& plan, OrderScene& scene
       last.insert(done.group_of_step(done.steps().size()));
     } else {
       std::vector<Row>& own = rows[group];
+      // What moves within the group lead to comes first, as planned: they are as few as can be for it only.
       const bool plain = is_plain(removal);
-      if (own.empty() || own.back().plain != plain) own.push_back({done.placed(done.groups()[group]), {}, plain});
+      const bool led_to =
+          own.size() == 1 && !own.back().plain && own.back().start.size() == done.groups()[group].size();
+      if (own.empty() || (own.back().plain != plain && !led_to))
+        own.push_back({done.placed(done.groups()[group]), {}, plain});
       own.back().steps.push_back(&removal);
     }
     done.add(step_of(removal));

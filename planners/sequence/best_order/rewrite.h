@@ -23,8 +23,9 @@ struct Block {
 };
 
 /// Splits a plan. Steps of one group come before those of the groups that it made, in the order of their making. What
-/// moves parts and leaves them in their group stays where it is in its group; from the first forced step of a group on
-/// everything of that group and of those that it makes comes last of all, in the order of the plan.
+/// moves parts and leaves them in their group stays where it is in its group, and if a group begins with such moves,
+/// the first separation stays the one that they lead to; from the first forced step of a group on everything of that
+/// group and of those that it makes comes last of all, in the order of the plan.
 std::vector<Block> blocks_of(const std::vector<Removal>& plan, OrderScene& scene);
 
 /// The steps of the plan that take parts out of the group of the target, up to the one that takes the target out.

@@ -32,12 +32,12 @@ class Ranked final : public StepCheck {
   std::size_t& judged_;
 };
 
-RunResult plan_of(const Assembly& assembly, std::shared_ptr<const StepCheck> check, double effort) {
+RunResult plan_of(const Assembly& assembly, std::shared_ptr<const StepCheck> check, double effort,
+                  std::shared_ptr<SequencePlanner> inner = std::make_shared<fake::InTurn>()) {
   BestOrderParameters params;
   params.effort = effort;
-  params.of = {PluginChoice{"inner", {}, {}}, [](PluginKind, const PluginChoice&) -> std::shared_ptr<void> {
-                 return std::make_shared<fake::InTurn>();
-               }};
+  params.of = {PluginChoice{"inner", {}, {}},
+               [inner](PluginKind, const PluginChoice&) -> std::shared_ptr<void> { return inner; }};
   PlanningSetup setup = fake::setup(fake::push, std::make_shared<BestOrder>(params));
   setup.objective = {{{"ranked", std::move(check), 1, false}}};
   RunContext context;
@@ -74,6 +74,44 @@ TEST(ByVerdict, JudgesNoMoreThanItsEffort) {
   plan_of(assembly, std::make_shared<Ranked>(ranks, many), 60000);
   EXPECT_LT(few, many);
   EXPECT_LT(many, 29 * 12 + 60000 / (5 * 29) * 2);  // orders that are judged as a whole, and the choices of two plans
+}
+
+/// Shifts the last part within the group, then takes the group apart.
+class ShiftsFirst final : public fake::InTurn {
+ public:
+  SequenceResult plan(const SequenceQuery& query, PathOracle& oracle, SequenceObserver& observer,
+                      RunContext& context) override {
+    SequenceQuery then = query;
+    PlacedPart& last = then.start.front().back();
+    Attempt attempt = question(query.start.front(), last);
+    attempt.goal.placement = true;
+    const Pose from = last.pose;
+    last.pose.t.y() += 0.3;
+    const AttemptResult& answer = oracle.propose(attempt, {{from}, {last.pose}}, context);
+    EXPECT_EQ(answer.result.outcome(), Outcome::solved);
+    const Removal shift{{last.part}, &answer};
+    observer.removed(shift, query.start.front().size());
+    SequenceResult result = InTurn::plan(then, oracle, observer, context);
+    result.removals.insert(result.removals.begin(), shift);
+    return result;
+  }
+};
+
+// Moves within a group are as few as can be for the separation that follows: it stays the first, though the others
+// change places.
+TEST(ByVerdict, WhatMovesWithinAGroupLeadToStaysFirst) {
+  const Assembly assembly = fake::row(5);
+  for (PartId dear = 0; dear < 2; ++dear) {                    // the part that is taken out first, or second
+    std::vector<std::size_t> ranks(assembly.parts.size(), 1);  // the dear one wants to leave last
+    ranks[dear] = 0;
+    std::size_t judged = 0;
+    const RunResult best =
+        plan_of(assembly, std::make_shared<Ranked>(ranks, judged), 60000, std::make_shared<ShiftsFirst>());
+    EXPECT_EQ(best.plan.status, PlanStatus::complete);
+    ASSERT_EQ(best.plan.disassembly.size(), 5u);
+    EXPECT_EQ(best.plan.disassembly[1].moves.front().part, assembly.parts[0].name) << dear;
+    if (dear == 1) EXPECT_NE(best.plan.disassembly[2].moves.front().part, assembly.parts[1].name);
+  }
 }
 
 }  // namespace
