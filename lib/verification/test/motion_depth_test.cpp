@@ -149,6 +149,34 @@ TEST(MotionDepth, ARidgeInAUniformOverlapIsFound) {
   }
 }
 
+/// One pair is `known` deep. Another begins and ends at 0.55 to 0.75 of that, where one coarse pass is enough, and is
+/// deeper between: what the coarse pass found has to count in the bound.
+TEST(MotionDepth, WhatIsFoundLessDeepCountsInTheBoundOfWhatIsBetween) {
+  Rng rng(23);
+  for (int i = 0; i < testing_support::trials(10, 100); ++i) {
+    const double known = rng.uniform(0.5, 2), half = known * rng.uniform(1.15, 1.3),
+                 at = known * rng.uniform(0.55, 0.75);
+    const Pose world = shapes::random_pose(rng, 2);
+    const Vec3 grain = Vec3::Constant(0.005 * known);
+    const auto slab = [&](double y, double thickness) {
+      return shapes::moved(shapes::box({0, y - 9, -9}, {thickness, y + 9, 9}), world);
+    };
+    const auto grain_at = [&](double x, double y) {
+      return shapes::moved(shapes::box(Vec3(x, y, 0) - grain, Vec3(x, y, 0) + grain), world);
+    };
+    const Assembly assembly =
+        shapes::assembly_of({grain_at(known, 0), grain_at(at, 30), slab(0, 2 * known), slab(30, 2 * half)});
+    const Verifier verifier(assembly, {.max_penetration = 0.01});
+    MotionDepthMeter meter(assembly, verifier);
+    const Path path{{Pose{}, Pose{}}, {Pose{}, shift(world.q * Vec3(2 * (half - at), 0, 0))}};
+    const auto found =
+        meter.deepest({0, 1}, {{2, Pose{}}, {3, Pose{}}}, path, {.absolute = 2e-3, .relative = 0.02}, RunContext{});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->part, 1U);
+    EXPECT_NEAR(found->depth, half, 0.03 * half) << "known " << known << ", at the ends " << at;
+  }
+}
+
 TEST(MotionDepth, StopsWhenToldTo) {
   const Assembly assembly = shapes::assembly_of({shapes::box({0, 0, 0}, {1, 1, 1}), shapes::box({2, 0, 0}, {3, 1, 1})});
   const Verifier verifier(assembly, VerifyOptions{});
