@@ -29,7 +29,11 @@ std::optional<MotionDepth> SnapFits::holding(const GroupState& group, Subassembl
 }
 
 void SnapFits::searched(const GroupState& group, SubassemblyId id, unsigned depth, bool found) {
-  if (has_evidence() || (depth > 0 && depth < params_.snap_depth) || !holding(group, id)) return;
+  if (has_evidence() || (depth > 0 && depth < params_.snap_depth)) return;
+  // Of fewer parts than are evidence only searches that are deeper count: cuts are not measured for others.
+  const bool few = state_.assembly().parts.size() < params_.snap_failures;
+  if (few && !found && depth > 0 && depth < params_.snap_depth_of_few) return;
+  if (!holding(group, id)) return;
   if (found)
     failed_.clear();
   else
