@@ -139,14 +139,14 @@ auto Verifier::Impl::check_pair(const Pairs::value_type& pair, std::size_t rung,
 /// Checks all pairs in parallel until one fails, each from the highest rung known when its check begins.
 auto Verifier::Impl::check_pairs(const Pairs& pairs, const RunContext& context) const -> std::vector<PairResult> {
   std::vector<PairResult> results(pairs.size());
-  std::atomic<std::size_t> known{0};
+  std::atomic<std::size_t> highest{0};
   std::atomic<bool> failed{false};
   parallel_for(
       pairs.size(), context,
       [&](std::size_t k) {
-        results[k] = check_pair(pairs[k], known, context);
+        results[k] = check_pair(pairs[k], highest, context);
         if (!results[k].passed) failed = true;
-        for (std::size_t r = known; r < results[k].rung && !known.compare_exchange_weak(r, results[k].rung);) {
+        for (std::size_t r = highest; r < results[k].rung && !highest.compare_exchange_weak(r, results[k].rung);) {
         }
       },
       [&] { return failed.load(); });
