@@ -98,11 +98,12 @@ std::vector<Choice> Comparison::compared(const std::vector<Placed>& groups, cons
     list.push_back(std::move(now));
     return scope.depths == nullptr || least > tolerance_;
   };
-  // Of an estimate, and of what is less promising, only what is clearly less deep is of interest.
+  // Of an estimate, of a direction that no feature has, and of what is less promising, only what is clearly less deep
+  // is of interest.
   const auto clearly_less = [&](const ForcedMotion& m) { return kClearlyLess * least_of(m); };
   std::vector<const ForcedMotion*> done = chosen(all);
   const bool goes_on = std::all_of(done.begin(), done.end(), [&](const ForcedMotion* m) {
-    return measure(*m, scope.depths != nullptr ? clearly_less(*m) : unsure(least_of(*m)));
+    return measure(*m, scope.depths != nullptr || m->sampled ? clearly_less(*m) : unsure(least_of(*m)));
   });
   if (goes_on && scope.depths == nullptr) {
     std::map<std::vector<PartId>, std::size_t> more;
