@@ -163,7 +163,8 @@ int replay_order(const ReplayOptions& options) {
   console.text(fmt::format("{} of {} insertions of the order are possible, {} refused\n", items.size() - refused,
                            items.size(), refused));  // planning may take long
   const std::vector<std::string> others = left_over(assembly);
-  if (!others.empty()) console.text(fmt::format("not in the order, taken as there from the start: {}\n", fmt::join(others, ", ")));
+  if (!others.empty())
+    console.text(fmt::format("not in the order, taken as there from the start: {}\n", fmt::join(others, ", ")));
   std::string text;
   if (!loaded.plan && !options.no_plan) {
     if (const double timeout = session.config().run.timeout; timeout > 0)

@@ -73,15 +73,14 @@ std::string without_blanks(const std::string& field) {
 
 /// Lines that end with LF, CRLF or CR, without a byte order mark: spreadsheets write all of them.
 std::istringstream lines_of(std::istream& in) {
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  for (std::size_t at = text.find('\r'); at != std::string::npos; at = text.find('\r', at)) {
-    if (at + 1 < text.size() && text[at + 1] == '\n')
-      text.erase(at, 1);
-    else
-      text[at] = '\n';
-  }
-  return std::istringstream(text);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string lines;
+  for (std::size_t i = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; i < text.size(); ++i)
+    if (text[i] != '\r')
+      lines += text[i];
+    else if (i + 1 == text.size() || text[i + 1] != '\n')
+      lines += '\n';
+  return std::istringstream(lines);
 }
 
 }  // namespace

@@ -42,14 +42,9 @@ class Motions {
     return {traits.remembers_direction ? all_[v].course : 0, traits.remembers_orientation ? all_[v].up : 0};
   }
   double cost(const ObjectiveItem& item, VariantId v, VariantId previous) const {
-    const StepQuestion before = question(previous == kNone ? v : previous, nullptr);
-    try {
-      const StepVerdict verdict = item.check->judge(question(v, previous == kNone ? nullptr : &before), context_);
-      if (!(verdict.cost >= 0)) throw CheckFailed("its cost is not a number from 0 on");
-      return item.require && !verdict.allowed ? kForbidden : verdict.cost;
-    } catch (const std::exception& e) {
-      throw CheckFailed("'" + item.id + "': " + e.what());
-    }
+    if (previous == kNone) return cost_by(item, question(v, nullptr), &StepCheck::judge, context_);
+    const StepQuestion before = question(previous, nullptr);
+    return cost_by(item, question(v, &before), &StepCheck::judge, context_);
   }
 
  private:

@@ -23,6 +23,10 @@ struct CheckFailed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What a check says of a step, without its weight; kForbidden: it is required, and does not allow the step.
+/// \throws CheckFailed
+double cost_by(const ObjectiveItem& item, const StepQuestion& question, Objective::Ask ask, const RunContext& context);
+
 constexpr double kPreference = 1e-7;  ///< of a direction, by one degree; far below all costs of checks
 
 /// What all segments of a plan share.

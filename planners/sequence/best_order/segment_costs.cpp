@@ -8,6 +8,16 @@ namespace dismantle::order {
 
 using Eigen::Vector3d;
 
+double cost_by(const ObjectiveItem& item, const StepQuestion& question, Objective::Ask ask, const RunContext& context) {
+  try {
+    const StepVerdict verdict = ((*item.check).*ask)(question, context);
+    if (!(verdict.cost >= 0)) throw CheckFailed("its cost is not a number from 0 on");
+    return item.require && !verdict.allowed ? kForbidden : verdict.cost;
+  } catch (const std::exception& e) {
+    throw CheckFailed("'" + item.id + "': " + e.what());
+  }
+}
+
 double Segment::preference(const std::vector<VariantId>& order) const {
   double sum = 0;
   for (const VariantId v : order) sum += preference_[v];
@@ -79,29 +89,19 @@ double Segment::judge(const Item& item, VariantId v, const UnitSet& rest, Varian
                               insertion.empty() ? nullptr : &insertion,
                               scene_.ups[variants_[v].up].value_or(drawn),
                               nullptr};
-  try {
-    StepVerdict verdict;
-    if (previous == kNone) {
-      verdict = ((*item.item->check).*ask)(question, scene_.context);
-    } else {
-      const Move& earlier = moves_[variants_[previous].move];
-      const std::vector<PlacedPart> put_in = moving_of(earlier);
-      const StepQuestion before{scene_.query.assembly,
-                                put_in,
-                                nothing,
-                                earlier.motion.insertion,
-                                nullptr,
-                                scene_.ups[variants_[previous].up].value_or(drawn),
-                                nullptr};
-      StepQuestion with = question;
-      with.previous = &before;
-      verdict = ((*item.item->check).*ask)(with, scene_.context);
-    }
-    if (!(verdict.cost >= 0)) throw CheckFailed("its cost is not a number from 0 on");
-    return item.item->require && !verdict.allowed ? kForbidden : verdict.cost;
-  } catch (const std::exception& e) {
-    throw CheckFailed("'" + item.item->id + "': " + e.what());
-  }
+  if (previous == kNone) return cost_by(*item.item, question, ask, scene_.context);
+  const Move& earlier = moves_[variants_[previous].move];
+  const std::vector<PlacedPart> put_in = moving_of(earlier);
+  const StepQuestion before{scene_.query.assembly,
+                            put_in,
+                            nothing,
+                            earlier.motion.insertion,
+                            nullptr,
+                            scene_.ups[variants_[previous].up].value_or(drawn),
+                            nullptr};
+  StepQuestion with = question;
+  with.previous = &before;
+  return cost_by(*item.item, with, ask, scene_.context);
 }
 
 const std::vector<PlacedPart>& Segment::present(const UnitSet& rest) {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "dismantle/testing/fake_prover.h"
-#include "last_resort.h"
 #include "dismantle/verification/check_plan.h"
+#include "last_resort.h"
 
 namespace dismantle {
 namespace {

@@ -21,6 +21,7 @@
 #include <iterator>
 #include <memory>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "input_limits.h"
@@ -91,17 +92,19 @@ class Records {
     in.clear();
     in.seekg(0);
     text_.assign(std::istreambuf_iterator<char>(in), {});
+    for (std::size_t at = text_.find('#'); at != std::string::npos; at = text_.find('#', at + 1)) {
+      std::size_t end = at + 1;
+      while (end < text_.size() && std::isdigit(static_cast<unsigned char>(text_[end])) != 0) ++end;
+      std::size_t behind = end;
+      while (behind < text_.size() && is_blank(text_[behind])) ++behind;
+      if (behind < text_.size() && text_[behind] == '=') begins_.try_emplace(text_.substr(at, end - at), behind + 1);
+    }
   }
 
   /// What stands behind "#id="; empty: there is none.
   std::string_view find(const std::string& id) const {
-    const std::string_view all = text_;
-    for (std::size_t at = all.find(id); at != all.npos; at = all.find(id, at + 1)) {
-      std::size_t behind = at + id.size();
-      while (behind < all.size() && is_blank(all[behind])) ++behind;
-      if (behind < all.size() && all[behind] == '=') return all.substr(behind + 1);
-    }
-    return {};
+    const auto found = begins_.find(id);
+    return found == begins_.end() ? std::string_view() : std::string_view(text_).substr(found->second);
   }
 
   /// The type of a record; what is wrong: there is none.
@@ -136,6 +139,7 @@ class Records {
 
  private:
   std::string text_;
+  std::unordered_map<std::string, std::size_t> begins_;  // by "#id": the place behind its "="
 };
 
 bool usable(const Handle(StepRepr_RepresentationItem) & item) {
