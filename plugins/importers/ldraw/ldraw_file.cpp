@@ -78,10 +78,13 @@ class Parser {
     first_ = true;
     textured_ = {};
     stored_.clear();
+    synth_.clear();
+    bent_.reset();
   }
 
   void finish() {
     end_texture();
+    end_bent();
     if (skipping_ || (current_.name.empty() && !content_)) return;
     const std::string key = name_key(current_.name.empty() ? file_.filename().string() : current_.name);
     if (out_.files.empty()) out_.first = key;
@@ -138,6 +141,8 @@ class Parser {
       hide(words, "it is hidden in the file (GHOST)");
     } else if (word == "BUFEXCHG") {
       exchange(words);
+    } else if (word == "SYNTH" || word == "!LDCAD") {
+      bent(word, words);
     } else if (word == "!TEXMAP" || word == "!:") {
       texture(word, words);
     }
@@ -161,7 +166,37 @@ class Parser {
     for (std::size_t i = found->second; i < all.size(); ++i)
       current_.hidden.push_back({std::move(all[i]), "the file takes it away again (BUFEXCHG)"});
     all.resize(std::min(all.size(), found->second));
+    if (bent_) bent_->first = std::min(bent_->first, all.size());
+    std::erase_if(current_.bent, [&](Bent& b) {
+      b.end = std::min(b.end, all.size());
+      return b.end <= b.first;
+    });
     for (StepEnd& step : current_.steps) step.before = std::min(step.before, all.size());
+  }
+
+  void bent(std::string_view program, Words& words) {
+    const std::string_view what = words.next();
+    if (program == "!LDCAD") {
+      if (what == "GENERATED") begin_bent("");
+      return;
+    }
+    if (what == "BEGIN") synth_ = words.next();
+    if (what != "SYNTHESIZED") return;
+    const std::string_view edge = words.next();
+    if (edge == "BEGIN") begin_bent(synth_);
+    if (edge == "END") end_bent();
+  }
+
+  void begin_bent(const std::string& name) {
+    end_bent();
+    bent_ = Bent{name, current_.references.size(), 0};
+  }
+
+  void end_bent() {
+    if (!bent_) return;
+    bent_->end = current_.references.size();
+    if (bent_->end > bent_->first) current_.bent.push_back(*std::move(bent_));
+    bent_.reset();
   }
 
   /// Lines behind "0 !:" are for programs that draw textures, those behind FALLBACK for the others. Only one of both
@@ -271,6 +306,8 @@ class Parser {
     std::vector<std::string> lines{};
   };
   Textured textured_;
+  std::string synth_;                          // what LSynth makes in this block
+  std::optional<Bent> bent_;                   // the part that bends whose segments are read now
   std::map<std::string, std::size_t> stored_;  // MLCad's buffers: numbers of references
 };
 

@@ -47,6 +47,13 @@ struct StepEnd {
   bool ends_turn = false;
 };
 
+/// A part that bends, drawn by a program along its path as segments: `0 SYNTH SYNTHESIZED BEGIN` to `END` of LSynth,
+/// all behind `0 !LDCAD GENERATED` of LDCad. Its references are [first, end).
+struct Bent {
+  std::string name;  ///< what LSynth calls it; empty: the file is the part
+  std::size_t first = 0, end = 0;
+};
+
 /// A statement !COLOUR.
 struct Colour {
   std::string code;
@@ -61,6 +68,7 @@ struct LdrawFile {
   std::string type;         ///< of !LDRAW_ORG: "Part", "Shortcut", "Primitive", "Model"; empty: not stated
   std::vector<Reference> references;
   std::vector<Hidden> hidden;
+  std::vector<Bent> bent;  ///< in the order of the references, apart from one another
   std::vector<Polygon> polygons;
   std::vector<StepEnd> steps;
   std::vector<Colour> colours;

@@ -105,8 +105,16 @@ class Walk {
       }
     };
     Lines earlier;
+    auto bent = file.bent.begin();
     for (std::size_t i = 0; i < file.references.size(); ++i) {
       finish_steps(i);
+      while (bent != file.bent.end() && bent->first < i) ++bent;
+      if (bent != file.bent.end() && bent->first == i && is_one_part(file, *bent)) {
+        step_parts.push_back(add_bent(file, *bent, place));
+        all.push_back(step_parts.back());
+        i = bent->end - 1;
+        continue;
+      }
       if (is_repeated(file.references[i], earlier)) {
         add_repeated(file.references[i], place);
         continue;
@@ -138,8 +146,7 @@ class Walk {
   }
 
   std::vector<std::uint32_t> reference(const Reference& r, const Place& place) {
-    if (++used_ > kMostUses)
-      throw InputError(library_.first(), fmt::format("it has more than {} parts and sub-models", kMostUses));
+    if (++used_ > kMostUses) throw too_many();
     Place inner = place;
     inner.placement = place.placement * r.placement;
     inner.inverted = place.inverted != r.inverted;
@@ -156,6 +163,35 @@ class Walk {
     inner.parents.push_back(r.name);
     inner.instances.push_back(inner.group);
     return model(r.name, *found->file, inner);
+  }
+
+  /// Are the segments one part, as those of a hose are? The links of a chain or a tread are parts of their own.
+  bool is_one_part(const LdrawFile& file, const Bent& bent) {
+    for (std::size_t i = bent.first; i < bent.end; ++i) {
+      const std::string& key = file.references[i].name;
+      const std::optional<Found> found = library_.find(key);
+      if (!found || !is_part(key, *found) || !meshes_.of(key).problem.empty()) return false;
+      if (name_key(described(*found->file).description).starts_with("technic chain")) return false;
+    }
+    return true;
+  }
+
+  std::uint32_t add_bent(const LdrawFile& file, const Bent& bent, const Place& place) {
+    const Reference& first = file.references[bent.first];
+    std::string name = bent.name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    if (name.empty()) name = file.description.empty() ? file.name : file.description;
+    Place inner = place;
+    if (first.colour != "16") inner.colour = first.colour;
+    RawPart part = raw(name, inner, bent.name.empty() ? name_key(file.name) : bent.name);
+    part.flexible = true;
+    for (std::size_t i = bent.first; i < bent.end; ++i) {
+      const Reference& r = file.references[i];
+      if (++used_ > kMostUses) throw too_many();
+      add_mesh(meshes_.of(r.name).mesh, place.placement * r.placement, place.inverted != r.inverted, part.mesh);
+    }
+    to_millimetres(part.mesh);
+    return push(std::move(part));
   }
 
   /// Is the line written a second time: the same part in the same place, of the same model?
@@ -217,12 +253,7 @@ class Walk {
     const double volume = place.placement.linear.determinant();
     if (part.problem.empty() && std::abs(volume) < 1e-9) part.problem = "its placement has no volume";
     if (part.problem.empty()) {
-      part.mesh.vertices.reserve(shape.mesh.vertices.size());
-      for (const Eigen::Vector3d& v : shape.mesh.vertices)
-        part.mesh.vertices.push_back(place.placement.linear * v + place.placement.shift);
-      part.mesh.triangles = shape.mesh.triangles;
-      if ((volume < 0) != place.inverted)
-        for (Triangle& t : part.mesh.triangles) std::swap(t[1], t[2]);
+      add_mesh(shape.mesh, place.placement, place.inverted, part.mesh);
       to_millimetres(part.mesh);
     }
     return push(std::move(part));
@@ -251,6 +282,19 @@ class Walk {
   std::string unique_group(const std::string& key) {
     const unsigned n = ++groups_[key];
     return n == 1 ? key : fmt::format("{}#{}", key, n);
+  }
+
+  InputError too_many() {
+    return {library_.first(), fmt::format("it has more than {} parts and sub-models", kMostUses)};
+  }
+
+  static void add_mesh(const Mesh& mesh, const Placement& placement, bool inverted, Mesh& out) {
+    const auto base = static_cast<std::uint32_t>(out.vertices.size());
+    out.vertices.reserve(out.vertices.size() + mesh.vertices.size());
+    for (const Eigen::Vector3d& v : mesh.vertices) out.vertices.push_back(placement.linear * v + placement.shift);
+    const bool turned = (placement.linear.determinant() < 0) != inverted;
+    for (const Triangle& t : mesh.triangles)
+      out.triangles.push_back({base + t[0], base + t[turned ? 2 : 1], base + t[turned ? 1 : 2]});
   }
 
   static void to_millimetres(Mesh& mesh) {

@@ -149,6 +149,48 @@ TEST_F(Ldraw, TyresAreFlexibleInAnyColour) {
 }
 
 /// The library keeps old numbers as files that only refer to the new one: the part has the name of that.
+/// Three segments in a row, and what programs write around them.
+TEST_F(Ldraw, SegmentsOfAPartThatBendsAreOneFlexiblePart) {
+  const auto segments = [](const std::string& file) {
+    std::string out;
+    for (const int x : {0, 18, 36}) out += "1 4 " + std::to_string(x) + " 0 0 1 0 0 0 1 0 0 0 1 " + file + "\n";
+    return out;
+  };
+  const std::string block = "0 SYNTH BEGIN HOSE_FLEXIBLE 4\n0 SYNTH SHOW\n0 SYNTH SYNTHESIZED BEGIN\n" +
+                            segments("brick.dat") + "0 STEP\n0 SYNTH SYNTHESIZED END\n0 SYNTH END\n";
+  const std::string before = "0 Pump\n1 4 0 50 0 1 0 0 0 1 0 0 0 1 brick.dat\n0 STEP\n";
+  const std::string behind = "0 STEP\n1 4 0 100 0 1 0 0 0 1 0 0 0 1 brick.dat\n";
+  const auto parts = read(before + block + behind);
+  ASSERT_EQ(parts.size(), 3u);
+  EXPECT_EQ(parts[1].name, "HOSE FLEXIBLE");
+  EXPECT_TRUE(parts[1].flexible);
+  EXPECT_FALSE(parts[0].flexible || parts[2].flexible);
+  EXPECT_EQ(parts[1].colour, (Rgba{0xC9, 0x1A, 0x09, 255}));
+  EXPECT_NEAR(signed_volume(parts[1].mesh), 3 * 8 * 4 * 9.6, 1e-9);
+  EXPECT_NEAR(parts[1].mesh.box().hi.x(), (36 + 20) * 0.4, 1e-9);
+  const auto steps = order(before + block + behind);
+  ASSERT_EQ(steps.size(), 3u);
+  EXPECT_EQ(steps[1].parts, std::vector<std::uint32_t>{1});
+
+  const std::string cable =
+      "0 FILE cable.ldr\n0 A cable\n0 !LDCAD CONTENT [type=path]\n"
+      "0 !LDCAD GENERATED [generator=LDCad 1.6d]\n" +
+      segments("brick.dat");
+  const auto bent = read("0 FILE a.ldr\n0 Pump\n1 16 0 0 0 -1 0 0 0 1 0 0 0 1 cable.ldr\n" + cable);
+  ASSERT_EQ(bent.size(), 1u);
+  EXPECT_EQ(bent[0].name, "A cable");
+  EXPECT_TRUE(bent[0].flexible);
+  EXPECT_NEAR(signed_volume(bent[0].mesh), 3 * 8 * 4 * 9.6, 1e-9) << "mirrored, and its outside stays outside";
+
+  write("library/parts/link.dat", "0 Technic Chain Link\n0 !LDRAW_ORG Part\n0 BFC CERTIFY CCW\n" + box(20, 24, 10));
+  EXPECT_EQ(read("0 Loader\n0 SYNTH BEGIN CHAIN 0\n0 SYNTH SYNTHESIZED BEGIN\n" + segments("link.dat")).size(), 3u)
+      << "links are parts";
+  const auto lost = read("0 Pump\n0 SYNTH BEGIN HOSE 0\n0 SYNTH SYNTHESIZED BEGIN\n" + segments("brick.dat") +
+                         "1 4 54 0 0 1 0 0 0 1 0 0 0 1 nowhere.dat\n");
+  ASSERT_EQ(lost.size(), 4u) << "a segment that is missing is named";
+  EXPECT_FALSE(lost[3].problem.empty());
+}
+
 TEST_F(Ldraw, PartsThatHaveMovedHaveTheirName) {
   const std::string at = "1 16 0 0 0 1 0 0 0 1 0 0 0 1 ";
   write("library/parts/old.dat", "0 ~Moved to brick\n0 !LDRAW_ORG Part\n" + at + "brick.dat\n");
