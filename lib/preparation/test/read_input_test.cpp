@@ -119,7 +119,9 @@ TEST(ReadInput, NodesOfOneNameAreNumbered) {
   const TempFolder folder;
   const auto in = read_input(folder.write("a.box", "nut\nnut\nnut#2\n\nnut\n"), importers());
   EXPECT_EQ(names(in), (NameList{"nut", "nut#3", "nut#2", "a", "nut#4"}));
-  EXPECT_TRUE(any_contains(in.warnings, "renamed to 'nut#3'"));
+  ASSERT_EQ(in.warnings.size(), 1u) << "one line, however many there are";
+  EXPECT_TRUE(any_contains(in.warnings, "2 parts have the names of others"));
+  EXPECT_TRUE(any_contains(in.warnings, "'nut' (a.box) is now 'nut#3'"));
 }
 
 TEST(ReadInput, NamesBecomeValidUtf8) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <map>
 #include <set>
 
 #include "dismantle/preparation/read_input.h"
@@ -60,18 +61,25 @@ void make_names_unique(std::vector<RawPart>& parts, std::vector<std::string>& wa
     reserved.insert(part.name);
   }
   std::set<std::string> used;
+  std::map<std::string, int> last;  // number by which a part of this name was renamed
+  std::size_t renamed = 0;
+  std::string first;
   for (auto& part : parts) {
     if (used.insert(part.name).second) continue;
     std::string name;
-    for (int n = 2;; ++n) {
-      name = fmt::format("{}#{}", part.name, n);
+    for (int& n = last.try_emplace(part.name, 1).first->second;;) {
+      name = fmt::format("{}#{}", part.name, ++n);
       if (!reserved.count(name) && !used.count(name)) break;
     }
-    warnings.push_back(fmt::format("name '{}' is used more than once ({}): renamed to '{}'", part.name,
-                                   part.file.empty() ? "no file" : part.file, name));
+    if (renamed++ == 0)
+      first = fmt::format("'{}' ({}) is now '{}'", part.name, part.file.empty() ? "no file" : part.file, name);
     part.name = name;
     used.insert(name);
   }
+  if (renamed == 0) return;
+  warnings.push_back(
+      renamed == 1 ? fmt::format("1 part has the name of another one: {}", first)
+                   : fmt::format("{} parts have the names of others, and got numbers: the first, {}", renamed, first));
 }
 
 }  // namespace dismantle
