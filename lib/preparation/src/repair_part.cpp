@@ -165,13 +165,17 @@ class PartRepair {
       const std::vector<Hole> holes = fill_holes(mesh_, limits);
       for (const Hole& h : holes)
         report_.actions.push_back(
-            h.filled
-                ? fmt::format("closed a hole of {} near {}, area {}{}", counted(h.edges, "edge"), text(h.center),
-                              area(h.area), h.flat ? "" : ", with the smallest surface on its rim, which is not flat")
-                : fmt::format("left a hole of {} near {}, area {}, open: {}", counted(h.edges, "edge"), text(h.center),
-                              area(h.area), h.why_not));
+            h.filled ? fmt::format("closed a hole of {} near {}, area {}{}", counted(h.edges, "edge"), text(h.center),
+                                   area(h.area),
+                                   h.slit   ? ": split the triangle at its longest edge"
+                                   : h.flat ? ""
+                                            : ", with the smallest surface on its rim, which is not flat")
+                     : fmt::format("left a hole of {} near {}, area {}, open: {}", counted(h.edges, "edge"),
+                                   text(h.center), area(h.area), h.why_not));
       sum_up(holes, true);
       sum_up(holes, false);
+      if (const std::size_t n = drop_duplicate_faces(mesh_).cancelled)
+        did("dropped {} back to back with a filling: walls without thickness", counted(n, "triangle"));
       use = edge_use(mesh_);
       if (use.inconsistent) {
         orient();

@@ -8,6 +8,7 @@
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/mesh_repair.h"
 #include "mesh/ring_holes.h"
+#include "mesh/slits.h"
 
 namespace dismantle {
 namespace {
@@ -177,8 +178,12 @@ std::size_t close_t_junctions(Mesh& mesh, double tolerance) {
 std::vector<Hole> fill_holes(Mesh& mesh, const HoleLimits& limits) {
   std::vector<Hole> holes;
   const double area_limit = limits.max_area_share * surface_area(mesh);
-  for (const auto& loop : mesh_detail::join_ring_holes(mesh, hole_loops(mesh))) {
+  const auto loops = mesh_detail::join_ring_holes(mesh, hole_loops(mesh));
+  const std::vector<char> slits = mesh_detail::close_slits(mesh, loops);
+  for (std::size_t k = 0; k < loops.size(); ++k) {
+    const auto& loop = loops[k];
     Hole hole;
+    hole.slit = slits[k] != 0;
     hole.edges = loop.size();
     std::vector<Vector3d> corners;
     Aabb box;
@@ -196,6 +201,11 @@ std::vector<Hole> fill_holes(Mesh& mesh, const HoleLimits& limits) {
       for (const auto& p : corners) uneven = std::max(uneven, std::abs(normal.normalized().dot(p - hole.center)));
     hole.flat = loop.size() <= 3 || uneven <= limits.max_unevenness * box.size().norm();
     std::vector<Triangle> filling;
+    if (hole.slit) {
+      hole.filled = true;
+      holes.push_back(std::move(hole));
+      continue;
+    }
     if (loop.size() < 3) {
       hole.why_not = "two triangles overlap there";
     } else if (loop.size() > (hole.flat ? limits.max_edges : limits.max_uneven_edges)) {

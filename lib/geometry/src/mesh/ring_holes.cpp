@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <utility>
 
+#include "dismantle/geometry/mesh_edges.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "mesh/cross2.h"
 
@@ -89,11 +91,15 @@ std::vector<Rim> join_ring_holes(const Mesh& mesh, std::vector<Rim> rims) {
   if (rims.size() < 2) return rims;
   std::size_t shells = 0;
   const std::vector<std::uint32_t> shell_of = shells_of(mesh, shells);
-  std::vector<std::uint32_t> shell_at(mesh.vertices.size(), 0);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (const auto v : mesh.triangles[t]) shell_at[v] = shell_of[t];
+  // By open edge, as a filling has it: vertices may belong to several shells.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> shell_at;
+  for_each_edge(sorted_edges(mesh), [&](const auto* first, const auto* last) {
+    if (last - first == 1)
+      shell_at[first->forward ? std::pair(first->hi, first->lo) : std::pair(first->lo, first->hi)] =
+          shell_of[first->triangle];
+  });
   std::vector<FlatRim> flat;
-  for (const Rim& rim : rims) flat.emplace_back(mesh, rim, shell_at[rim.front()]);
+  for (const Rim& rim : rims) flat.emplace_back(mesh, rim, shell_at.at({rim[0], rim[1]}));
 
   const auto is_in = [&](std::size_t inner, std::size_t outer) {
     const FlatRim &a = flat[inner], &b = flat[outer];

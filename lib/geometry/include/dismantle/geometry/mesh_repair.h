@@ -47,6 +47,7 @@ struct HoleLimits {
 /// A hole of a mesh, filled or not.
 struct Hole {
   bool filled = false;
+  bool slit = false;  ///< filled by a vertex more in the triangle at its longest edge: a T-junction that is not exact
   std::size_t edges = 0;
   double area = 0;  ///< of the filling if there is one, else of the rim projected on its best plane
   bool flat = true;
@@ -54,7 +55,8 @@ struct Hole {
   std::string why_not;  ///< when not filled
 };
 /// Fills small loops of open edges: a flat loop with a flat polygon, any other loop with the triangulation of its rim
-/// vertices that has the smallest area. Neighbouring triangles must be oriented consistently.
+/// vertices that has the smallest area. A narrow hole whose filling would lie on its neighbours, back to back, is
+/// closed by splitting the triangle at its longest edge. Neighbouring triangles must be oriented consistently.
 DISMANTLE_API std::vector<Hole> fill_holes(Mesh& mesh, const HoleLimits& limits);
 
 /// What orienting the triangles did.
