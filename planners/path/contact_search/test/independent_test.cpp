@@ -9,6 +9,18 @@
 namespace dismantle::contact_search {
 namespace {
 
+PathResult rise(const ParamSet& given, unsigned depth) {
+  RunContext context;
+  PrepareReport report;
+  path::test::Table table(
+      prepare_assembly(samples::make("interlock3", given), "interlock3", "", PrepareOptions{}, context, report), 1e-3);
+  std::vector<PartId> moving;
+  for (const Part& p : table.assembly.parts)
+    if (p.name != "frame") moving.push_back(p.id);
+  table.any_of = moving;
+  return table.plan("contact_search", {}, 0, {.max_depth = depth}, moving);
+}
+
 /// The long motion begins among states that the block and the spindle reach singly, in their play, and parts that press
 /// on each other are in contact all the way, at places that the world may not have seen.
 TEST(ContactSearchIndependent, ABlockRisesWhileItsSpindleTurns) {
@@ -16,20 +28,18 @@ TEST(ContactSearchIndependent, ABlockRisesWhileItsSpindleTurns) {
   for (int trial = 0; trial < testing_support::trials(1, 40); ++trial) {
     const double size = rng.uniform(8, 24), clearance = size * rng.uniform(0.008, 0.025), turn = rng.uniform(90, 360);
     SCOPED_TRACE(::testing::Message() << "size " << size << ", clearance " << clearance << ", turn " << turn);
-    RunContext context;
-    PrepareReport report;
-    const ParamSet given{
-        {"size", size}, {"turn", turn}, {"clearance", clearance}, {"rotate_seed", std::int64_t{trial * 7}}};
-    path::test::Table table(
-        prepare_assembly(samples::make("interlock3", given), "interlock3", "", PrepareOptions{}, context, report),
-        1e-3);
-    std::vector<PartId> moving;
-    for (const Part& p : table.assembly.parts)
-      if (p.name != "frame") moving.push_back(p.id);
-    table.any_of = moving;
-    const PathResult result = table.plan("contact_search", {}, 0, {.max_depth = 4}, moving);
+    const PathResult result =
+        rise({{"size", size}, {"turn", turn}, {"clearance", clearance}, {"rotate_seed", std::int64_t{trial * 7}}}, 4);
     EXPECT_EQ(result.outcome(), Outcome::solved) << result.message;
   }
+}
+
+/// A force on one part and a torque on the other are the last actions of the first level. Its work has to reach them
+/// where no single force or torque drives both parts all the way: in this pose the block jams when it is pushed alone.
+TEST(ContactSearchIndependent, TheFirstLevelReachesAForceWithATorque) {
+  const PathResult result =
+      rise({{"size", 12.0}, {"turn", 264.67}, {"clearance", 0.0884}, {"rotate_seed", std::int64_t{2366}}}, 1);
+  EXPECT_EQ(result.outcome(), Outcome::solved) << result.message;
 }
 
 }  // namespace

@@ -7,9 +7,9 @@ namespace dismantle::push {
 
 /// Under a depth limit the sequence planner asks for all parts in turn. Most of them are blocked, so the search has to
 /// end soon. A part can slide or rotate in its play for a long time, so the work is limited, too. Where parts move
-/// independently, only the work is limited, with rotation from the second level on in proportion to the number of
-/// actions, which grows with the square of the number of parts (the first level is asked of many sets); and rotation is
-/// searched from the first level on, because usually one of the parts rotates.
+/// independently, only the work is limited: with rotation in proportion to the number of parts on the first level,
+/// which is asked of many sets, and from the second level on to the number of actions, which grows with its square.
+/// Rotation is searched from the first level on, because usually one of the parts rotates.
 std::deque<Phase> phases_of(const PathQuery& query, const Tactics& tactics) {
   if (tactics.motion != Motion::automatic)
     return {{tactics.motion == Motion::translation ? MotionSpace::translation : MotionSpace::rigid, ~0U, 0, {}}};
@@ -19,8 +19,8 @@ std::deque<Phase> phases_of(const PathQuery& query, const Tactics& tactics) {
   if (!query.goal.any_of.empty()) {
     // One driven part, and two along one axis; from the second level on also two across.
     const unsigned rank = 1 + depth / 2;
-    const std::uint64_t parts = depth > 1 ? query.scene.moving.size() : 1;
-    return {{MotionSpace::translation, rank, 0, work}, {MotionSpace::rigid, rank, 0, parts * parts * work}};
+    const std::uint64_t parts = query.scene.moving.size(), share = depth > 1 ? parts * parts : parts;
+    return {{MotionSpace::translation, rank, 0, work}, {MotionSpace::rigid, rank, 0, share * work}};
   }
   // The rank is limited to the depth: at the first level, free directions and axes.
   std::deque<Phase> phases{
