@@ -36,10 +36,12 @@ Path Verification::with_room(Path path, const Work& work) const {
 
 /// The k-th form, from 1 on, of a path on which parts drive each other, and so stay in contact all the way. Each
 /// refusal tells the world of a contact that it did not see, and the next form keeps off that, too, also at the instant
-/// of the refusal. Ends when a form is refused again as it was, or after `max_refusals` forms.
+/// of the refusal. Ends when a form is refused again as it was, or after `max_refusals` forms. The path of a part that
+/// moves alone has one: moved off what it touches. The search goes on from what the world learned of it.
 std::optional<Path> Verification::next_form(const Path& whole, std::size_t k, const Work& work,
                                             const Refused& last) const {
-  if (!problem_.independent() || k > static_cast<std::size_t>(problem_.tactics.max_refusals)) return std::nullopt;
+  const auto refusals = static_cast<std::size_t>(problem_.tactics.max_refusals);
+  if (k > (problem_.independent() ? refusals : std::min<std::size_t>(refusals, 1))) return std::nullopt;
   if (k == 1) return with_room(path::thin(whole, problem_.bodies, problem_.touch_distance()), work);
   const auto after = static_cast<std::ptrdiff_t>(last.check.instant) + 1;
   Path next = last.path;
