@@ -55,7 +55,7 @@ TEST(ExemptBox, WhatSticksOutOfItIsProvedWhereNothingIs) {
     const bool cuts = !beside && overlap + over > 2 * tolerance;
     if (!cuts && !beside && overlap + over > -tolerance) continue;  // about as deep as allowed
     const BlockAtRim at = block_at_rim(origin, overlap, over, {from, to}, across ? 3 : 1.8, top);
-    const Limits limits{0, tolerance, &at.exempt, tolerance, overlap + tolerance};
+    const Limits limits{0, tolerance, &at.exempt, tolerance};
     Budget budget{20'000, 2'000};
     const Finding found = check_pair(at.block, at.plate, at.forward, at.backward, limits, budget);
     EXPECT_EQ(found.answer == Answer::certified, !cuts) << trial << ": over " << over << ", overlap " << overlap;
@@ -65,7 +65,7 @@ TEST(ExemptBox, WhatSticksOutOfItIsProvedWhereNothingIs) {
   EXPECT_GT(refused, 10);
 }
 
-/// Against points of the box outside of the inner one: none is in the solid, which is turned at random.
+/// Against points of the swept hull outside of the box: none is in the solid. Solid and triangle are turned at random.
 TEST(ExemptBox, NothingOfASolidIsOutsideWhereItIsSaidToBeFree) {
   Rng rng(43);
   const auto point = [&](double size) {
@@ -76,26 +76,39 @@ TEST(ExemptBox, NothingOfASolidIsOutsideWhereItIsSaidToBeFree) {
     const Pose turned{point(1),
                       Eigen::Quaterniond(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1), 1).normalized()};
     const Solid solid(shapes::moved(shapes::box({-1, -1, -0.2}, {1, 1, 0.2}), turned));
-    Aabb box, inner;
-    for (Aabb* b : {&box, &inner}) {
-      const Vec3 from = turned * point(1.4);
-      b->extend(from);
-      b->extend(from + point(b == &box ? 1 : 3));
+    const Vec3 from = turned * point(1.4), by = point(1);
+    const double margin = trial % 3 == 0 ? 0.05 : 0;
+    Corners begin, end;
+    for (std::size_t k = 0; k < 3; ++k) {
+      begin[k] = solid.frame.inverse() * (from + point(0.5));
+      end[k] = begin[k] + by + (trial % 5 == 0 ? point(0.2) : Vec3::Zero());
     }
-    if (!box.overlaps(inner)) continue;
-    const bool said = is_free_outside(solid, box, inner);
+    Aabb inner;
+    inner.extend(from);
+    inner.extend(from + point(3));
+    inner.inflate(0.3);
+    const bool said = is_free_outside(solid, Sweep(begin, end, margin), inner);
     bool any = false;
     for (int k = 0; k < 500; ++k) {
-      const Vec3 u = point(1), x = box.center() + 0.5 * u.cwiseProduct(box.size());
-      if (!inner.contains(x) && solid.bvh.inside(solid.frame.inverse() * x)) any = true;
+      Vec3 x = Vec3::Zero();
+      double sum = 0;
+      for (const Corners* corners : {&begin, &end})
+        for (const Vec3& p : *corners) {
+          const double weight = rng.uniform(0, 1);
+          sum += weight;
+          x += weight * p;
+        }
+      x = x / sum + margin * point(0.5);
+      if (!inner.contains(solid.frame * x) && solid.bvh.inside(x)) any = true;
     }
     EXPECT_FALSE(said && any) << trial;
     ++(said ? free : met);
     if (trial % 2 == 0) continue;
     Aabb around;
-    around.extend(box);
+    for (const Corners* corners : {&begin, &end})
+      for (const Vec3& p : *corners) around.extend(solid.frame * p);
     around.inflate(0.1);
-    EXPECT_TRUE(is_free_outside(solid, box, around)) << trial;
+    EXPECT_TRUE(is_free_outside(solid, Sweep(begin, end, margin), around)) << trial;
   }
   EXPECT_GT(free, 30);
   EXPECT_GT(met, 30);

@@ -198,7 +198,6 @@ struct MotionDepthMeter::Impl {
   /// verifier proves that nothing is deeper than the deepest point so far, or says when to measure again.
   bool elsewhere(PartId part, const PairMotion& motion, const PlacedPart& other, const Aabb& region,
                  const MotionDepthOptions& options, const RunContext& context, std::optional<MotionDepth>& worst) {
-    const double border = assembly.initial_overlap(part, other.part) + verifier.options().max_penetration;
     const auto known = [&] { return worst ? worst->excess() : 0; };
     const auto raise_to = [&](double depth, const Eigen::Vector3d& point) {
       if (depth <= known()) return false;
@@ -211,7 +210,7 @@ struct MotionDepthMeter::Impl {
         for (;;) {
           const double sure = 0.5 * resolution(options, worst);
           if (known() + 2 * sure >= options.at_most) return true;
-          const geometry::Limits limits{known() + sure, sure, &region, verifier.options().max_penetration, border};
+          const geometry::Limits limits{known() + sure, sure, &region, verifier.options().max_penetration};
           const SolidMotion solids(motion.poses(), {other.pose}, x, y, limits.most());
           if (!solids.forward.swept_box().overlaps(y.box)) break;
           const VerifyBudget& counts = verifier.options().budget;

@@ -172,8 +172,7 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const RunContext& con
 /// Checks law 3, outside the region of the initial overlap.
 bool Verifier::Impl::check_elsewhere(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y,
                                      const Aabb& region, const RunContext& context, MotionCheck& result) const {
-  const double border = overlap(a.part, b.part) + options.max_penetration;
-  const verify::Limits limits{0, options.max_penetration, &region, options.max_penetration, border};
+  const verify::Limits limits{0, options.max_penetration, &region, options.max_penetration};
   const SolidMotion motion(a.poses, b.poses, x, y, limits.most());
   if (!motion.forward.swept_box().overlaps(y.box)) return true;
   verify::Budget budget = budget_for(motion.forward.segments(), true, true, &context);
@@ -340,7 +339,7 @@ bool Verifier::passes(PartId moving, PartId fixed, const Pose& fixed_at, const s
   };
   const Aabb* where = impl_->region(moving, fixed);
   const double tolerance = impl_->options.max_penetration;
-  return keeps_to(limits) && (where == nullptr || keeps_to({0, tolerance, where, tolerance, limits.most()}));
+  return keeps_to(limits) && (where == nullptr || keeps_to({0, tolerance, where, tolerance}));
 }
 
 verify::HullsApart Verifier::Impl::hulls_of(const std::vector<PlacedPart>& group,

@@ -90,6 +90,27 @@ TEST(OverlapRegion, APinWithASlightOverlapSlidesOutOfAWidePlate) {
   }
 }
 
+/// A pressed sleeve slides off a pin that is longer than itself. The region's faces cut both obliquely, and the
+/// sleeve's outside is beyond them; where a facet passes a face, nothing of the other part is.
+TEST(OverlapRegion, ASleeveSlidesOffItsPinInAnyPoseWithLittleWork) {
+  Rng rng(5);
+  for (int trial = 0; trial < testing_support::trials(4, 40); ++trial) {
+    const double press = rng.uniform(0.015, 0.05), wall = rng.uniform(0.3, 1);
+    const Pose world = random_pose(rng, 3);
+    const Mesh sleeve = moved(shapes::tube(1, 1 + wall, 0, 3, 32, 1), world);
+    const Mesh pin = moved(shapes::tube(0, 1 + press, -3, 5, 32, 1), world);
+    const Assembly assembly = measured(sleeve, pin);
+    const Verifier verifier(assembly, {0.001});
+    ASSERT_TRUE(verifier.overlap_region(0, 1));
+    const Vec3 up = world.q * Vec3(0, 0, 1);
+    Path path;
+    for (int k = 0; k <= 20; ++k) path.push_back({shift(0.3 * k * up)});
+    const MotionCheck off = verifier.check_motion({0}, {{1, Pose{}}}, path);
+    EXPECT_TRUE(off.valid) << "trial " << trial;
+    EXPECT_LT(off.tests, 5000U) << "trial " << trial;
+  }
+}
+
 TEST(OverlapRegion, ShallowAndDeclaredOverlapsHaveNone) {
   const Mesh a = box({0, 0, 0}, {2, 2, 2});
   for (const double depth : {0.05, 0.15}) {
@@ -165,7 +186,7 @@ TEST(OverlapRegion, AgreesWithSamplesOnRandomBlocks) {
   }
   EXPECT_GT(refused, 10);
   EXPECT_GT(accepted, 5);
-  EXPECT_LT(unclear, 30);
+  EXPECT_LT(unclear, refused + accepted);
 }
 
 }  // namespace

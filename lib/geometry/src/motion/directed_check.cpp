@@ -261,6 +261,16 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     by_shrunken_copy_ = false;
     return true;
   }
+  // The border of the exempt box is fixed to the patch: no interval is short enough for a patch across it.
+  if (const std::optional<Ridge> border = exempt_border(patch)) {
+    if (budget_.patches_left < 2) return fail(Answer::exhausted, patch.center(), 0, patch.triangle, i.s0);
+    budget_.patches_left -= 2;
+    for (Patch half : patch.halves(border->edge, border->t)) {
+      half.halved = patch.halved;
+      same.push_back(add(half));
+    }
+    return true;
+  }
   if (bent) {  // too bent to be treated as straight
     later.push_back(id);
     return true;
@@ -310,11 +320,10 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
   const auto deepest = static_cast<std::size_t>(seen.deepest);
   if (seen.depth[deepest] > 0 && leaves(moved_along(patch, seen.out[deepest], e))) return true;
   if (reach < budget_.resolution * leeway) return fail(Answer::uncertain, patch.center(), depth, patch.triangle, s);
-  // A ridge often lies along the motion: cut the patch there before halving the interval. The border of the exempt box
-  // is fixed to the patch: no interval is short enough for a patch across it, so that it is cut once for all of them.
+  // A ridge often lies along the motion: cut the patch there before halving the interval.
   const auto ridge = ridge_on(patch, seen);
   const bool shorter = i.s1 - i.s0 > 1 || (!ridge && travel + 2 * margin > 0.3 * patch.longest_edge());
-  if (shorter && !crosses_exempt(patch)) {
+  if (shorter) {
     later.push_back(id);
     return true;
   }

@@ -10,33 +10,20 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// True if no point of the solid is in the box, which is given in the assembled frame of the solid.
-bool is_free(const Solid& solid, const Aabb& box) {
-  const Placement to_local(solid.frame.inverse());
-  const Vec3 c = to_local * box.center(), h = to_local.r.cwiseAbs() * (0.5 * box.size());
-  bool met = false;
-  solid.bvh.overlapping({c - h, c + h}, [&](std::uint32_t) { met = true; });
-  return !met && !solid.bvh.inside(c);
-}
-
 }  // namespace
 
-bool is_free_outside(const Solid& solid, const Aabb& box, const Aabb& inner) {
-  Aabb rest = box;  // without the slabs that were looked at
-  for (int axis = 0; axis < 3; ++axis) {
-    if (rest.lo[axis] < inner.lo[axis]) {
-      Aabb below = rest;
-      below.hi[axis] = std::min(rest.hi[axis], inner.lo[axis]);
-      if (!is_free(solid, below)) return false;
-      rest.lo[axis] = inner.lo[axis];
+/// Beyond each face of the box, the hull is convex: it holds nothing of the solid if it meets no triangle and one of
+/// its points is outside.
+bool is_free_outside(const Solid& solid, const Sweep& hull, const Aabb& inner) {
+  const Pose to_local = solid.frame.inverse();
+  const double rounding = kRounding * (solid.box.size().norm() + inner.lo.norm() + inner.hi.norm());
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      const Vec3 normal = to_local.q * Vec3(side * Vec3::Unit(axis));
+      const double at = side * (side < 0 ? inner.lo : inner.hi)[axis] + normal.dot(to_local.t) - rounding;
+      const std::optional<Vec3> point = hull.beyond({normal, at});
+      if (point && (!hull.clear_beyond(solid.bvh, {normal, at}) || solid.bvh.inside(*point))) return false;
     }
-    if (rest.hi[axis] > inner.hi[axis]) {
-      Aabb above = rest;
-      above.lo[axis] = std::max(rest.lo[axis], inner.hi[axis]);
-      if (!is_free(solid, above)) return false;
-      rest.hi[axis] = inner.hi[axis];
-    }
-  }
   return true;
 }
 
@@ -57,19 +44,36 @@ bool DirectedCheck::exempt(const Interval& i, double margin, const Patch& patch)
 /// smaller than its border, at each instant.
 bool DirectedCheck::meets_exempt_only(const Interval& i, double margin, const Patch& patch) const {
   if (limits_.exempt == nullptr) return false;
+  const Corners begin = placed(i.at0, patch.p), end = placed(i.at1, patch.p);
   Aabb swept;
-  for (const Placement& place : {i.at0, i.at1})
-    for (const Vec3& p : placed(place, patch.p)) swept.extend(b_.frame * p);
-  swept.inflate(margin + kRounding * (a_.box.size().norm() + b_.box.size().norm()));
-  return swept.overlaps(*limits_.exempt) && is_free_outside(b_, swept, *limits_.exempt);
+  for (const Corners* corners : {&begin, &end})
+    for (const Vec3& p : *corners) swept.extend(b_.frame * p);
+  swept.inflate(margin);
+  const double rounding = kRounding * (a_.box.size().norm() + b_.box.size().norm());
+  return swept.overlaps(*limits_.exempt) && is_free_outside(b_, Sweep(begin, end, margin + rounding), *limits_.exempt);
 }
 
-/// True if the patch is partly in the exempt box, in its own assembled frame, and larger than the border is wide.
-bool DirectedCheck::crosses_exempt(const Patch& patch) const {
-  if (limits_.exempt == nullptr || patch.radius() <= limits_.border) return false;
-  Aabb box;
-  for (const Vec3& p : patch.p) box.extend(a_.frame * p);
-  return box.overlaps(*limits_.exempt);
+/// Where to cut a patch that is partly in the exempt box, in its own assembled frame: on an edge that crosses a face of
+/// the box. What is cut off outside does not reach into the box, up to rounding.
+std::optional<Ridge> DirectedCheck::exempt_border(const Patch& patch) const {
+  if (limits_.exempt == nullptr) return std::nullopt;
+  const Aabb& box = *limits_.exempt;
+  const double rounding = kRounding * (a_.box.size().norm() + box.lo.norm() + box.hi.norm());
+  const Corners p{a_.frame * patch.p[0], a_.frame * patch.p[1], a_.frame * patch.p[2]};
+  Aabb own, inner = box;
+  for (const Vec3& corner : p) own.extend(corner);
+  inner.inflate(-2 * rounding);
+  if (!own.overlaps(inner)) return std::nullopt;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const bool low : {true, false}) {
+      const double face = low ? box.lo[axis] + rounding : box.hi[axis] - rounding;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double from = p[i][axis] - face, to = p[(i + 1) % 3][axis] - face;
+        // A corner on the face is on neither side.
+        if (from * to < 0 && std::min(std::abs(from), std::abs(to)) > rounding) return Ridge{i, from / (from - to)};
+      }
+    }
+  return std::nullopt;
 }
 
 }  // namespace dismantle::geometry

@@ -128,4 +128,52 @@ SweepResult Sweep::test(const TriangleBvh& bvh) const {
   }
 }
 
+std::optional<Vec3> Sweep::beyond(const Plane& plane) const {
+  const auto height = [&](const Vec3& p) { return plane.normal.dot(p) - plane.at; };
+  const Vec3& highest = *std::max_element(hull_.begin(), hull_.end(),
+                                          [&](const Vec3& p, const Vec3& q) { return height(p) < height(q); });
+  if (height(highest) > 0) return highest;
+  if (height(highest) + margin_ > 0) return highest + margin_ * plane.normal;
+  return std::nullopt;
+}
+
+bool Sweep::clear_beyond(const TriangleBvh& bvh, const Plane& plane) const {
+  const auto height = [&](const Vec3& p) { return plane.normal.dot(p) - plane.at; };
+  const auto misses_both = [&](const Aabb& box) {
+    return misses(box) || height(box.center()) + plane.normal.cwiseAbs().dot(0.5 * box.size()) < 0;
+  };
+  const auto is_clear = [&](const Corners& t) {
+    const std::array<double, 3> up{height(t[0]), height(t[1]), height(t[2])};
+    if (std::max({up[0], up[1], up[2]}) < 0 || apart(t)) return true;
+    // The part of the triangle beyond the plane has three or four corners.
+    std::array<Vec3, 4> part;
+    std::size_t corners = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      if (up[i] >= 0) part[corners++] = t[i];
+      if ((up[i] < 0) != (up[j] < 0)) part[corners++] = t[i] + up[i] / (up[i] - up[j]) * (t[j] - t[i]);
+    }
+    for (std::size_t k = 2; k < corners; ++k)
+      if (!apart({part[0], part[k - 1], part[k]})) return false;
+    return true;
+  };
+  const auto& nodes = bvh.nodes();
+  if (nodes.empty()) return true;
+  std::array<std::uint32_t, 192> stack;
+  std::size_t top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const std::uint32_t at = stack[--top];
+    const TriangleBvh::Node& node = nodes[at];
+    if (misses_both(node.box)) continue;
+    if (node.count == 0) {
+      stack[top++] = node.first;
+      stack[top++] = at + 1;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+      if (!is_clear(bvh.corners(bvh.order()[i]))) return false;
+  }
+  return true;
+}
+
 }  // namespace dismantle::geometry

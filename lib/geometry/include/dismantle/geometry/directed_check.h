@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "dismantle/geometry/numerics.h"
@@ -26,7 +27,6 @@ struct Limits {
   /// Largest penetration bound of the caller, >= penetration; 0: equal to it. Cells of unrolled meshes are a share of
   /// it.
   double tolerance = 0;
-  double border = 0;  ///< width of the layer at the surface of the exempt box that is not needed, >= 0
   /// True if the exempt box contains the point when `a` or `b`, with the point fixed to it, is in assembled position.
   /// `in_a`, `in_b`: the point in the frames of both solids.
   bool exempts(const Solid& a, const Eigen::Vector3d& in_a, const Solid& b, const Eigen::Vector3d& in_b) const {
@@ -145,7 +145,7 @@ class DirectedCheck {
   // exempt_box.cpp: the box without a depth limit
   bool exempt(const Interval& i, double margin, const Patch& patch) const;
   bool meets_exempt_only(const Interval& i, double margin, const Patch& patch) const;
-  bool crosses_exempt(const Patch& patch) const;
+  std::optional<Ridge> exempt_border(const Patch& patch) const;
   // walls.cpp: if a part is open
   bool rests_at(double time);
   bool fail_at_wall(const Patch& patch, double time);

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "dismantle/geometry/triangle_bvh.h"
 
@@ -19,12 +20,22 @@ enum class SweepResult {
   unclear,  ///< may meet a triangle
 };
 
+/// Beyond it is where normal * x > at.
+struct Plane {
+  Eigen::Vector3d normal;  ///< unit
+  double at = 0;
+};
+
 /// Convex hull of a triangle at two places, grown by a margin. Tests are one-sided: a clear result proves a distance
 /// above the margin; an unclear one proves nothing.
 class Sweep {
  public:
   Sweep(const Corners& begin, const Corners& end, double margin);
   SweepResult test(const TriangleBvh& bvh) const;
+  /// A point of the grown hull beyond the plane, if there is any.
+  std::optional<Eigen::Vector3d> beyond(const Plane& plane) const;
+  /// True if the part of the grown hull beyond the plane certainly meets no triangle.
+  bool clear_beyond(const TriangleBvh& bvh, const Plane& plane) const;
 
  private:
   struct Axis {
