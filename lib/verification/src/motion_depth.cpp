@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <queue>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "dismantle/geometry/swept_boxes.h"
 #include "dismantle/verification/interruptible_depth.h"
 #include "solid_motion.h"
+#include "swept_depth.h"
 
 namespace dismantle {
 namespace {
@@ -43,6 +45,9 @@ class PairMotion {
   double travel(double from, double to) const { return screw_travel(at(from), at(to), box_.center(), radius_); }
   bool meets(double from, double to) const { return geometry::SweptBoxes({at(from), at(to)}, box_).meets(there_, 0); }
   std::size_t segments() const { return poses_.size() - 1; }
+  bool is_straight() const {
+    return std::ranges::all_of(poses_, [&](const Pose& p) { return p.q.coeffs() == poses_.front().q.coeffs(); });
+  }
   const std::vector<Pose>& poses() const { return poses_; }
 
  private:
@@ -58,11 +63,16 @@ struct MotionDepthMeter::Impl {
   const Assembly& assembly;
   const Verifier& verifier;
   std::vector<std::unique_ptr<DepthBody>> bodies;
+  std::map<std::pair<PartId, std::size_t>, DepthField> fields;  // by part and solid
 
   const DepthBody& body(PartId part) {
     auto& made = bodies.at(part);
     if (!made) made = std::make_unique<DepthBody>(*assembly.parts.at(part).mesh);
     return *made;
+  }
+
+  DepthField& field(PartId part, std::size_t solid) {
+    return fields.try_emplace({part, solid}, verifier.solids(part)[solid]).first->second;
   }
 
   static double resolution(const MotionDepthOptions& options, const std::optional<MotionDepth>& worst) {
@@ -108,9 +118,46 @@ struct MotionDepthMeter::Impl {
     return {};
   }
 
+  /// Of a motion without turns past parts that have an inside; else empty. As pair().
+  std::optional<bool> straight(PartId part, const PairMotion& motion, const PlacedPart& other,
+                               const MotionDepthOptions& options, const RunContext& context, double allowed,
+                               std::optional<MotionDepth>& worst) {
+    constexpr std::uint64_t kPieces = 500;  // take as long as measuring a pose
+    const auto closed = [](const geometry::Solid& solid) { return !solid.open; };
+    const auto &moving = verifier.solids(part), &fixed = verifier.solids(other.part);
+    if (!motion.is_straight() || !std::ranges::all_of(moving, closed) || !std::ranges::all_of(fixed, closed))
+      return std::nullopt;
+    bool settled = true;
+    if (!worst) raise(worst, {part, other.part, 0, allowed, Eigen::Vector3d::Zero(), false});
+    for (std::size_t k = 0; k < motion.segments(); ++k) {
+      const auto u = static_cast<double>(k);
+      if (!motion.meets(u, u + 1)) continue;
+      const Pose from = motion.at(u);
+      for (std::size_t m = 0; m < moving.size(); ++m)
+        for (std::size_t f = 0; f < fixed.size(); ++f) {
+          const PlacedSolid x{moving[m], from, field(part, m)}, y{fixed[f], other.pose, field(other.part, f)};
+          const SweptSearch search{.from = allowed + worst->excess(),
+                                   .resolution =
+                                       [&, least = worst->depth](double depth) {
+                                         return std::max(options.absolute, options.relative * std::max(least, depth));
+                                       },
+                                   .enough = enough(options, allowed),
+                                   .most_pieces = kPieces * options.most_poses};
+          const SweptDepth found = swept_depth(x, motion.at(u + 1).t - from.t, y, search, context);
+          if (found.deepest.depth > search.from)
+            raise(worst, {part, other.part, found.deepest.depth, allowed, found.deepest.point, false});
+          if (options.at_most - allowed <= worst->excess() + resolution(options, worst)) return true;
+          if (worst->excess() > options.stop_above || context.should_stop()) return false;
+          settled = settled && found.settled;
+        }
+    }
+    return settled;
+  }
+
   /// Raises `worst`. Returns false when the result is not proved.
   bool pair(PartId part, const PairMotion& motion, const PlacedPart& other, const MotionDepthOptions& options,
             const RunContext& context, double allowed, std::optional<MotionDepth>& worst) {
+    if (const auto known = straight(part, motion, other, options, context, allowed, worst)) return *known;
     // Deeper than this would be a new worst.
     const auto known = [&] { return worst ? allowed + worst->excess() : 0; };
     // A lower bound of the depth there; with the tolerance it is an upper one.
@@ -234,7 +281,7 @@ struct MotionDepthMeter::Impl {
 };
 
 MotionDepthMeter::MotionDepthMeter(const Assembly& assembly, const Verifier& verifier)
-    : impl_(std::make_unique<Impl>(Impl{assembly, verifier, {}})) {
+    : impl_(std::make_unique<Impl>(Impl{assembly, verifier, {}, {}})) {
   impl_->bodies.resize(assembly.parts.size());
 }
 

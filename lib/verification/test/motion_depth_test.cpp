@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/testing/shapes.h"
 #include "dismantle/testing/trials.h"
 #include "dismantle/verification/contact.h"
@@ -104,6 +105,68 @@ TEST(MotionDepth, AgreesWithBruteForceOnScrewMotions) {
     EXPECT_TRUE(found.proved);
     EXPECT_GE(found.depth, brute - std::max(0.01, 0.02 * brute) - 5e-3) << "trial " << i;
     EXPECT_LE(found.depth, brute + std::max(0.05, 0.02 * brute)) << "trial " << i;  // brute force misses instants
+  }
+}
+
+TEST(MotionDepth, AgreesWithBruteForceOnStraightMotions) {
+  Rng rng(29);
+  for (int i = 0; i < testing_support::trials(9, 120); ++i) {
+    const auto solid = [&](int kind) {
+      if (kind == 0) return shapes::box(shapes::random_vector(rng, -1, -0.3), shapes::random_vector(rng, 0.3, 1));
+      if (kind == 1) return shapes::sphere({0, 0, 0}, rng.uniform(0.5, 1), 1);
+      return shapes::tube(rng.uniform(0.2, 0.5), rng.uniform(0.7, 1), -0.5, rng.uniform(0, 1), 12);
+    };
+    const Mesh a = shapes::moved(solid(i % 3), shapes::random_pose(rng, 0.5)),
+               b = shapes::moved(solid(i / 3 % 3), shapes::random_pose(rng, 0.5));
+    const Assembly assembly = shapes::assembly_of({a, b});
+    const Pose from = shapes::random_pose(rng, 1);
+    const Vec3 first = shapes::random_vector(rng, -2, 2), second = shapes::random_vector(rng, -2, 2);
+    const Path path{{{from.t - first, from.q}}, {from}, {{from.t + second, from.q}}};
+    const MotionDepth found = deepest(assembly, {{1, Pose{}}}, path, {.absolute = 0.01, .relative = 0.02});
+    Penetration brute;
+    const DepthBody body_a(a), body_b(b);
+    constexpr int kPoses = 80;
+    for (int k = 0; k <= kPoses; ++k)
+      for (std::size_t s = 0; s < 2; ++s) {
+        const Pose pose = screw_interpolate(path[s][0], path[s + 1][0], static_cast<double>(k) / kPoses);
+        const Penetration there = deepest_penetration(body_a, pose, body_b, Pose{}, 5e-3);
+        if (there.depth > brute.depth) brute = there;
+      }
+    EXPECT_TRUE(found.proved || brute.depth == 0) << "trial " << i;
+    EXPECT_GE(found.depth, brute.depth - std::max(0.01, 0.02 * brute.depth)) << "trial " << i;
+    EXPECT_LE(found.depth, brute.depth + 0.04) << "trial " << i;  // brute force misses instants
+    if (found.depth < 0.1) continue;
+    // The point is one of the surface of the one or the other at some instant, so deep in the other.
+    double depth = 0;
+    for (int k = 0; k <= kPoses; ++k)
+      for (std::size_t s = 0; s < 2; ++s) {
+        const Pose pose = screw_interpolate(path[s][0], path[s + 1][0], static_cast<double>(k) / kPoses);
+        const TriangleBvh there_a(shapes::moved(a, pose)), there_b(b);
+        const double in_a = -there_a.signed_distance(found.point), in_b = -there_b.signed_distance(found.point);
+        if (std::abs(in_a) < 0.03) depth = std::max(depth, in_b);
+        if (std::abs(in_b) < 0.03) depth = std::max(depth, in_a);
+      }
+    EXPECT_NEAR(depth, found.depth, 0.05) << "trial " << i;
+  }
+}
+
+/// The head of a rivet, through a bore: as deep all along the way, and deepest on ridges of the one and of the other.
+TEST(MotionDepth, AHeadThroughALongBoreIsProvedWithLittleWork) {
+  Rng rng(31);
+  for (int i = 0; i < testing_support::trials(6, 60); ++i) {
+    const double bore = rng.uniform(0.4, 0.8), wall = rng.uniform(0.3, 1), rim = bore + wall * rng.uniform(0.2, 0.8),
+                 thickness = rng.uniform(0.2, 0.8);
+    const Pose world = shapes::random_pose(rng, 2);
+    const Assembly assembly =
+        shapes::assembly_of({shapes::moved(shapes::tube(0, rim, -1 - thickness, -1, 48), world),
+                             shapes::moved(shapes::tube(bore, bore + wall, 0, rng.uniform(5, 12), 48), world)});
+    const MotionDepth found = deepest(assembly, {{1, Pose{}}}, {{Pose{}}, {shift(world.q * Vec3(0, 0, 15))}},
+                                      {.absolute = 0.005, .relative = 0.05, .most_poses = 200});
+    // A face of the head in the wall, or the edge of the bore in the head; facets of 48 are 0.2 % less far out.
+    const double in_wall = std::min(rim - bore, 0.5 * wall), in_head = std::min(rim - bore, 0.5 * thickness);
+    const double depth = std::max(in_wall, in_head);
+    EXPECT_TRUE(found.proved) << "trial " << i;
+    EXPECT_NEAR(found.depth, depth, 0.06 * depth) << "trial " << i;
   }
 }
 

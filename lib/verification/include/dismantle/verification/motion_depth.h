@@ -20,9 +20,10 @@ class DISMANTLE_API MotionDepthMeter {
   MotionDepthMeter(const Assembly& assembly, const Verifier& verifier);
   ~MotionDepthMeter();
 
-  /// The pair with the largest excess when `moving` follows `path` (columns as `moving`) past `fixed`. A depth changes
-  /// by no more than a point travels, which bounds it between measured poses. The interval with the highest bound is
-  /// halved until none can hold more than was found. Outside the region of an initial overlap (Verifier, law 3) nothing
+  /// The pair with the largest excess when `moving` follows `path` (columns as `moving`) past `fixed`. Of a motion
+  /// without turns all that the surfaces sweep is searched at once. Else poses are measured: a depth changes by no more
+  /// than a point travels, which bounds it between them, and the interval with the highest bound is halved until none
+  /// can hold more than was found. Outside the region of an initial overlap (Verifier, law 3) nothing
   /// is allowed: there `allowed` is 0; not looked at when the answer may be off by more than the verifier's tolerance
   /// (`absolute`), as for a comparison. When told to stop, returns the deepest pair so far, not `proved`.
   /// Returns nullopt when nothing was measured, also because no pair came into reach. `valid_ones`: pairs with a valid
