@@ -31,7 +31,8 @@ bool is_pair(const Attempt& attempt) { return attempt.moving.size() == 1 && atte
 // pairs.
 constexpr unsigned kDepthOfHolders = 2;
 constexpr std::size_t kMostHolders = 2;
-constexpr double kSmallSnap = 4;  // tolerances
+constexpr double kShareOfHolders = 0.125;  // of the steps before other proofs: two proofs of low effort, known by pair
+constexpr double kSmallSnap = 4;           // tolerances
 // Multiples of the tolerance that a proof is first tried for. It says more, and its cells are larger, so it is found
 // sooner: what holds two parts is as large as the parts are, however fine the tolerance is.
 constexpr double kCoarse[] = {100, 10};
@@ -190,6 +191,11 @@ std::vector<SearchPause> ProofSchedule::during(const Attempt& attempt, const Run
   const bool pair = is_pair(attempt);
   const bool low = is_provable(attempt, pair ? 0 : options_.low_effort_depth);
   const bool costly = pair && is_provable(attempt, 0);
+  const auto soon = static_cast<std::uint64_t>(kShareOfHolders * static_cast<double>(options_.low_effort_steps));
+  if (soon > 0 && is_holdable(attempt))
+    pauses.push_back({soon, [this, &attempt, &context](const std::vector<PartId>& touched) {
+                        return prove_held(attempt, touched, context);
+                      }});
   if (low || is_holdable(attempt))
     pauses.push_back({static_cast<std::uint64_t>(options_.low_effort_steps),
                       [this, low, &attempt, &context](const std::vector<PartId>& touched) {

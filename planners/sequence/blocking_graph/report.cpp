@@ -18,7 +18,14 @@ void Report::add_left(const GroupState& group, const std::string& notes) {
 }
 
 Unsolved Report::reason_for(const GroupState& group, PartId part, bool tried) const {
-  if (const Unsolved* failure = state_.failure_of(part)) {
+  const Unsolved* failure = state_.failure_of(part);
+  // The proof may have been found by a search for the other part.
+  if (const Certificate* proof = state_.pair_proof(group, part);
+      proof != nullptr && (failure == nullptr || failure->outcome != Outcome::infeasible)) {
+    const PartId other = proof->parts.front() == part ? proof->parts.back() : proof->parts.front();
+    return {part, Outcome::infeasible, {other}, {}, proof->text, proof};
+  }
+  if (failure != nullptr) {
     Unsolved reason = *failure;
     std::erase_if(reason.blocked_by, [&](PartId b) { return !group.contains(state_.subassembly_of(b)); });
     return reason;

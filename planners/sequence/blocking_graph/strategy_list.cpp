@@ -35,6 +35,7 @@ SequenceResult StrategyList::run() {
 
 void StrategyList::take_apart(GroupState group) {
   for (std::size_t k = 0; k < strategies_.size() && group.members.size() > 1 && !state_.stop();) {
+    if (state_.is_locked(group)) break;
     switch (strategies_[k]->apply(group)) {
       case Result::unchanged:
         ++k;

@@ -123,11 +123,7 @@ bool SimultaneousMotion::is_worthwhile(const GroupState& group, const Subassembl
 
 /// Is it proved that another part of the group holds it?
 bool SimultaneousMotion::is_held(const GroupState& group, SubassemblyId id) const {
-  const Unsolved* failure = state_.failure_of(state_.part_of(id));
-  return failure != nullptr && failure->outcome == Outcome::infeasible && failure->certificate != nullptr &&
-         failure->certificate->parts.size() == 2 && failure->certificate->poses.empty() &&
-         std::all_of(failure->certificate->parts.begin(), failure->certificate->parts.end(),
-                     [&](PartId part) { return group.contains(state_.subassembly_of(part)); });
+  return state_.pair_proof(group, state_.part_of(id)) != nullptr;
 }
 
 /// Searches for a motion of the k-th set.

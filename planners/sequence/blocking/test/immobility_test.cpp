@@ -98,6 +98,27 @@ TEST(BlockingProofs, ThreeOfWhichNoTwoAreProvedInseparableAreReportedTogether) {
   }
 }
 
+/// Proofs about pairs that connect all parts: whatever moves, nothing leaves. The third part is not searched for any
+/// more, and no arrangements.
+TEST(BlockingProofs, AGroupThatPairsHoldTogetherIsGivenUp) {
+  const shapes::Keyed keyed{.play = 0.003};
+  const Assembly assembly = shapes::assembly_of({keyed.slab(), keyed.tray(), keyed.block()});
+  const auto searches = [&](std::set<std::vector<PartId>> listed) {
+    RunResult r = take_apart(assembly, 1, {}, &shallow,
+                             {{"listed", std::make_shared<ListedProver>(ProofEffort::low, std::move(listed))}});
+    EXPECT_TRUE(r.plan.disassembly.empty());
+    EXPECT_EQ(r.plan.unsolved.size(), 3u);
+    return std::pair(r.counts.attempts, std::count_if(r.plan.unsolved.begin(), r.plan.unsolved.end(),
+                                                      [](const auto& u) { return u.message == "listed"; }));
+  };
+  const auto [attempts, proved] = searches({{0, 1}, {1, 2}});
+  const auto [attempts_of_one, proved_of_one] = searches({{0, 1}});
+  EXPECT_EQ(proved, 3) << "each by a proof that names it";
+  EXPECT_EQ(proved_of_one, 2);
+  EXPECT_EQ(attempts, 6) << "seven, if the part that both others hold is searched for to depth 2, too";
+  EXPECT_GT(attempts_of_one, attempts);
+}
+
 TEST(BlockingProofs, PartsLockedByTheirOverlapAreOneFromTheBeginning) {
   Rng rng(3);
   for (int round = 0; round < 6; ++round) {
