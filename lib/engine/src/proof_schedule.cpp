@@ -269,12 +269,16 @@ double ProofSchedule::cut_of(PartId a, PartId b, const RunContext& context) {
 const Certificate* ProofSchedule::prove_reduced(PartId a, PartId b, const RunContext& context) {
   const double cut = cut_of(a, b, context);
   const auto is_snap = [&](double share) { return cut <= kSmallSnap * share * tolerance_; };
+  bool tried = false;
   for (const double share : kCoarse) {
     if (is_snap(share)) continue;
+    tried = true;
     if (const Certificate* found = answer_to({{std::min(a, b), std::max(a, b)}, ProofEffort::high, share}, context))
       return found;
   }
-  if (cut >= 0 && is_snap(1)) return nullptr;
+  // What is not proved although the parts hold each other far deeper takes more cells than there may be, and finer
+  // ones are no fewer.
+  if (tried || (cut >= 0 && is_snap(1))) return nullptr;
   return prove({{a, b}, ProofEffort::high, options_.reduced_tolerance}, context);
 }
 
