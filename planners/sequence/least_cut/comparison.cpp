@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kClearlyLess = 0.95;
+constexpr double kOfResult = 0.01;  // resolution of a depth that is stated, as a share of it
 constexpr double kEqualSums = 1.1;  // of sums up to this factor the number of steps decides
 
 bool cuts_less(const Choice& a, const Choice& b) { return a.excess() < b.excess(); }
@@ -171,6 +172,7 @@ std::vector<Choice> Comparison::of_best_outlook(const std::vector<Choice>& list,
 
 Choice Comparison::measured(Choice choice, double stop_above, const RunContext& context) {
   const MotionDepthOptions options{.absolute = tolerance_,
+                                   .relative = kOfResult,
                                    .stop_above = stop_above,
                                    .most_poses = 2 * static_cast<std::uint64_t>(params_.depth_poses)};
   choice.depth = motions_.depth(choice.motion, options, context);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/testing/held_shapes.h"
 #include "dismantle/testing/trials.h"
 #include "dismantle/verification/check_plan.h"
@@ -189,6 +190,29 @@ void expect_the_least_sum(const Assembly& assembly) {
   const bool fewer = plan.forced_steps() < least.steps;  // for that the sum may be a tenth more
   EXPECT_LE(sum, (fewer ? 1.15 : 1.05) * least.depth + resolution);
   EXPECT_LE(plan.forced_steps(), least.steps);
+}
+
+/// A ball in a closed box: the middle of the ball passes the thin wall, at one point of the surface and of the way.
+TEST(ForcedDepth, IsStatedToAHundredth) {
+  Rng rng(7);
+  for (int k = 0; k < testing_support::trials(4, 40); ++k) {
+    const double radius = rng.uniform(0.5, 1.5), wall = rng.uniform(0.05, 0.3) * radius;
+    const Pose world = shapes::random_pose(rng, 2);
+    const Mesh ball = shapes::moved(shapes::sphere(shapes::random_vector(rng, -0.4, 0.4), radius, 2), world);
+    const Assembly assembly = shapes::assembly_of(
+        {ball, shapes::moved(shapes::closed_box(Vector3d::Constant(-2), Vector3d::Constant(2), wall), world)});
+    Vector3d center = Vector3d::Zero();
+    for (const Vector3d& v : ball.vertices) center += v / static_cast<double>(ball.vertices.size());
+    const double middle = -TriangleBvh(ball).signed_distance(center);
+    const auto nothing = [](const Assembly&, PathOracle&, SequenceObserver&, RunContext&) {
+      SequenceResult result;
+      result.outcome = Outcome::exhausted;
+      return result;
+    };
+    const Plan plan = fake::forced_run(assembly, std::make_shared<fake::Custom>(nothing)).plan;
+    ASSERT_EQ(plan.forced_steps(), 1U);
+    EXPECT_NEAR(plan.disassembly.front().forced->depth, middle, 0.01 * middle) << "trial " << k;
+  }
 }
 
 struct Kind {
