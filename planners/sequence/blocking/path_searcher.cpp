@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "blocking_graph/pair_proofs.h"
+
 namespace dismantle::blocking {
 
 PathSearcher::PathSearcher(DisassemblyState& state, SearchHistory& history, const Lookahead& lookahead,
@@ -34,7 +36,7 @@ void PathSearcher::sort_by_use(const GroupState& group, Subassemblies& ids) {
 }
 
 bool PathSearcher::search_each(GroupState& group, const Subassemblies& ids, unsigned depth) {
-  for (std::size_t k = 0; k < ids.size() && !state_.stop() && !state_.is_locked(group); ++k)
+  for (std::size_t k = 0; k < ids.size() && !state_.stop() && !is_locked(state_, group); ++k)
     if (search(group, ids[k], depth, {ids.begin() + static_cast<std::ptrdiff_t>(k) + 1, ids.end()})) return true;
   return false;
 }

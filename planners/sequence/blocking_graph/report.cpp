@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "blocking_graph/pair_proofs.h"
+
 namespace dismantle::blocking {
 
 void Report::add_left(const GroupState& group, const std::string& notes) {
@@ -20,7 +22,7 @@ void Report::add_left(const GroupState& group, const std::string& notes) {
 Unsolved Report::reason_for(const GroupState& group, PartId part, bool tried) const {
   const Unsolved* failure = state_.failure_of(part);
   // The proof may have been found by a search for the other part.
-  if (const Certificate* proof = state_.pair_proof(group, part);
+  if (const Certificate* proof = pair_proof(state_, group, part);
       proof != nullptr && (failure == nullptr || failure->outcome != Outcome::infeasible)) {
     const PartId other = proof->parts.front() == part ? proof->parts.back() : proof->parts.front();
     return {part, Outcome::infeasible, {other}, {}, proof->text, proof};

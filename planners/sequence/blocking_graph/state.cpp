@@ -194,31 +194,4 @@ const Unsolved* DisassemblyState::failure_of(PartId part) const {
   return known == failures_.end() ? nullptr : &known->second;
 }
 
-const Certificate* DisassemblyState::pair_proof(const GroupState& group, PartId part) const {
-  const auto proves = [&](const Unsolved& u) {
-    const Certificate* c = u.certificate;
-    return u.outcome == Outcome::infeasible && c != nullptr && c->parts.size() == 2 && c->poses.empty() &&
-           contains(c->parts, part) &&
-           std::all_of(c->parts.begin(), c->parts.end(), [&](PartId p) { return group.contains(of_part_[p]); });
-  };
-  if (const Unsolved* own = failure_of(part); own != nullptr && proves(*own)) return own->certificate;
-  for (const auto& [other, failure] : failures_)
-    if (proves(failure)) return failure.certificate;
-  return nullptr;
-}
-
-bool DisassemblyState::is_locked(const GroupState& group) const {
-  Subassemblies reached{group.members.front()};
-  for (std::size_t k = 0; k < reached.size(); ++k)
-    for (const auto& [part, failure] : failures_) {
-      if (!group.contains(of_part_[part])) continue;
-      const Certificate* proof = pair_proof(group, part);
-      if (proof == nullptr) continue;
-      const SubassemblyId a = of_part_[proof->parts.front()], b = of_part_[proof->parts.back()];
-      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)})
-        if (from == reached[k] && std::find(reached.begin(), reached.end(), to) == reached.end()) reached.push_back(to);
-    }
-  return reached.size() == group.members.size();
-}
-
 }  // namespace dismantle::blocking

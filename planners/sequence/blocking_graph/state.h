@@ -160,11 +160,6 @@ class DisassemblyState {
   /// The last known failure of a part, for the report.
   void set_failure(Unsolved failure) { failures_[failure.part] = std::move(failure); }
   const Unsolved* failure_of(PartId part) const;
-  /// A proof that the part and another one of the group cannot be separated, however the others move; null: none is
-  /// known.
-  const Certificate* pair_proof(const GroupState& group, PartId part) const;
-  /// Do such proofs connect all members? Then nothing leaves the group.
-  bool is_locked(const GroupState& group) const;
 
  private:
   const Assembly& assembly_;

@@ -3,6 +3,8 @@
 #include <string>
 #include <utility>
 
+#include "blocking_graph/pair_proofs.h"
+
 namespace dismantle::blocking {
 
 InseparablePairs overlap_locks(const SequenceQuery& query, PathOracle& oracle, const RunContext& context) {
@@ -35,7 +37,7 @@ SequenceResult StrategyList::run() {
 
 void StrategyList::take_apart(GroupState group) {
   for (std::size_t k = 0; k < strategies_.size() && group.members.size() > 1 && !state_.stop();) {
-    if (state_.is_locked(group)) break;
+    if (is_locked(state_, group)) break;
     switch (strategies_[k]->apply(group)) {
       case Result::unchanged:
         ++k;

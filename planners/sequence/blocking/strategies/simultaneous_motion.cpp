@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "blocking_graph/pair_proofs.h"
+
 namespace dismantle::blocking {
 namespace {
 
@@ -123,7 +125,7 @@ bool SimultaneousMotion::is_worthwhile(const GroupState& group, const Subassembl
 
 /// Is it proved that another part of the group holds it?
 bool SimultaneousMotion::is_held(const GroupState& group, SubassemblyId id) const {
-  return state_.pair_proof(group, state_.part_of(id)) != nullptr;
+  return pair_proof(state_, group, state_.part_of(id)) != nullptr;
 }
 
 /// Searches for a motion of the k-th set.
