@@ -26,13 +26,14 @@ namespace dismantle {
 /// A proof is tried once the search that it may save has cost about as much as the proof will, or has found no path;
 /// most searches find a path before.
 /// - Trivial: on construction, about all pairs that overlap when assembled.
-/// - Low: in attempts of some depth or without limit, about the moving against the fixed parts.
+/// - Low: in attempts of some depth or without limit, about the moving against the fixed parts; sooner about one part
+///   and those that it touched most.
 /// - Medium: in deep attempts of one part against one other. High: after these, with the reduced tolerance, only if no
 ///   deeper attempt can follow.
 /// - All: at the end of the run, about each remaining part and the only part that it touched, or about a few together.
 ///
-/// Proofs of high effort try multiples of the tolerance first, where what holds a pair is far deeper, and then the
-/// reduced tolerance: it takes less time than the full one, and what is not proved with it is not proved with the full
+/// Proofs of high effort try multiples of the tolerance where what holds a pair is far deeper, else the reduced
+/// tolerance: it takes less time than the full one, and what is not proved with it is not proved with the full
 /// tolerance either. Pairs that snap are not asked about. With a deadline, each gets only a share of the remaining
 /// time, because others wait for their turn.
 class ProofSchedule {
