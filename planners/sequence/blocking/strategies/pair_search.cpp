@@ -44,8 +44,8 @@ bool PairSearch::search(GroupState& group) {
     if (searcher_.search_each(group, open, kFirstDepth)) return true;
     if (state_.stop()) return false;
     std::erase_if(open, [&](SubassemblyId s) {  // proved already
-      const auto* last = history_.last(s);
-      return last != nullptr && last->outcome == Outcome::infeasible;
+      const auto* past = history_.last(s);
+      return past != nullptr && past->outcome == Outcome::infeasible;
     });
   }
   if (searcher_.search_each(group, open, depth)) return true;
