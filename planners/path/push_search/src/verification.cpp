@@ -22,13 +22,17 @@ bool same_path(const Path& a, const Path& b) {
 
 }  // namespace
 
-/// Moves the parts at each instant but the first and the last off each other, wherever there is room.
+/// Moves the parts at each instant but the first and the last off each other, wherever there is room: a part that moves
+/// alone to the middle of it, parts that drive each other by the tolerance.
 Path Verification::with_room(Path path, const Work& work) const {
   const std::vector<path::Ball>& bodies = problem_.bodies;
   for (std::size_t k = 1; k + 1 < path.size() && !work.used_up(); ++k) {
     State state = problem_.world->initial_state();
     for (std::size_t i = 0; i < bodies.size(); ++i) state.bodies[i].pose = path[k][i];
-    problem_.move_off_contacts(state);
+    if (problem_.independent())
+      problem_.move_off_contacts(state);
+    else
+      problem_.give_room(state);
     for (std::size_t i = 0; i < bodies.size(); ++i) path[k][i] = state.bodies[i].pose;
   }
   return path;
@@ -37,7 +41,7 @@ Path Verification::with_room(Path path, const Work& work) const {
 /// The k-th form, from 1 on, of a path on which parts drive each other, and so stay in contact all the way. Each
 /// refusal tells the world of a contact that it did not see, and the next form keeps off that, too, also at the instant
 /// of the refusal. Ends when a form is refused again as it was, or after `max_refusals` forms. The path of a part that
-/// moves alone has one: moved off what it touches. The search goes on from what the world learned of it.
+/// moves alone has one: in the middle of its play. The search goes on from what the world learned of it.
 std::optional<Path> Verification::next_form(const Path& whole, std::size_t k, const Work& work,
                                             const Refused& last) const {
   const auto refusals = static_cast<std::size_t>(problem_.tactics.max_refusals);
