@@ -46,7 +46,11 @@ std::optional<Path> Verification::next_form(const Path& whole, std::size_t k, co
                                             const Refused& last) const {
   const auto refusals = static_cast<std::size_t>(problem_.tactics.max_refusals);
   if (k > (problem_.independent() ? refusals : std::min<std::size_t>(refusals, 1))) return std::nullopt;
-  if (k == 1) return with_room(path::thin(whole, problem_.bodies, problem_.touch_distance()), work);
+  if (k == 1) {
+    Path path = path::thin(whole, problem_.bodies, problem_.touch_distance()), with = with_room(path, work);
+    if (!problem_.independent() && same_path(with, path)) return std::nullopt;  // it touched nothing
+    return with;
+  }
   const auto after = static_cast<std::ptrdiff_t>(last.check.instant) + 1;
   Path next = last.path;
   if (last.check.poses.size() == problem_.bodies.size() && last.check.instant + 1 < next.size())
