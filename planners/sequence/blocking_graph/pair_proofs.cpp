@@ -7,11 +7,10 @@ namespace dismantle::blocking {
 
 namespace {
 
-/// Found by the last search for the part.
-const Certificate* own_proof(const DisassemblyState& state, const GroupState& group, PartId part) {
-  const Unsolved* failure = state.failure_of(part);
-  if (failure == nullptr || failure->outcome != Outcome::infeasible || failure->certificate == nullptr) return nullptr;
-  const Certificate& c = *failure->certificate;
+/// The certificate of a failure, if it is about two parts of the group wherever the others are; else null.
+const Certificate* proof_of(const DisassemblyState& state, const GroupState& group, const Unsolved& failure) {
+  if (failure.outcome != Outcome::infeasible || failure.certificate == nullptr) return nullptr;
+  const Certificate& c = *failure.certificate;
   const bool here =
       std::all_of(c.parts.begin(), c.parts.end(), [&](PartId p) { return group.contains(state.subassembly_of(p)); });
   return c.parts.size() == 2 && c.poses.empty() && here ? &c : nullptr;
@@ -20,17 +19,22 @@ const Certificate* own_proof(const DisassemblyState& state, const GroupState& gr
 }  // namespace
 
 const Certificate* pair_proof(const DisassemblyState& state, const GroupState& group, PartId part) {
-  if (const Certificate* own = own_proof(state, group, part); own != nullptr && contains(own->parts, part)) return own;
-  for (const PartId other : state.parts_of(group.members))
-    if (const Certificate* proof = own_proof(state, group, other); proof != nullptr && contains(proof->parts, part))
-      return proof;
+  const auto about_part = [&](const Unsolved& failure) -> const Certificate* {
+    const Certificate* proof = proof_of(state, group, failure);
+    return proof != nullptr && contains(proof->parts, part) ? proof : nullptr;
+  };
+  if (const Unsolved* own = state.failure_of(part))
+    if (const Certificate* proof = about_part(*own)) return proof;
+  for (const auto& [other, failure] : state.failures())
+    if (const Certificate* proof = about_part(failure)) return proof;
   return nullptr;
 }
 
+/// Asked after each removal: it looks at the failures, which are few, and not at the members.
 bool is_locked(const DisassemblyState& state, const GroupState& group) {
   std::vector<std::pair<SubassemblyId, SubassemblyId>> pairs;
-  for (const PartId part : state.parts_of(group.members))
-    if (const Certificate* proof = own_proof(state, group, part))
+  for (const auto& [part, failure] : state.failures())
+    if (const Certificate* proof = proof_of(state, group, failure))
       pairs.emplace_back(state.subassembly_of(proof->parts.front()), state.subassembly_of(proof->parts.back()));
   if (pairs.size() + 1 < group.members.size()) return false;
   Subassemblies reached{group.members.front()};

@@ -160,6 +160,7 @@ class DisassemblyState {
   /// The last known failure of a part, for the report.
   void set_failure(Unsolved failure) { failures_[failure.part] = std::move(failure); }
   const Unsolved* failure_of(PartId part) const;
+  const std::map<PartId, Unsolved>& failures() const { return failures_; }
 
  private:
   const Assembly& assembly_;

@@ -40,8 +40,8 @@ bool DirectedCheck::exempt(const Interval& i, double margin, const Patch& patch)
 }
 
 /// True if all of B that the patch may meet in the interval is in the exempt box, in B's assembled frame. It settles
-/// patches that stick out of the exempt box where there is nothing, which would otherwise be divided until they are
-/// smaller than its border, at each instant.
+/// patches that stick out of the exempt box where there is nothing, which would otherwise be cut at its faces, for
+/// nothing.
 bool DirectedCheck::meets_exempt_only(const Interval& i, double margin, const Patch& patch) const {
   if (limits_.exempt == nullptr) return false;
   const Corners begin = placed(i.at0, patch.p), end = placed(i.at1, patch.p);
