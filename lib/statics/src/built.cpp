@@ -24,6 +24,21 @@ constexpr double kAlmostNoWeight = 1e-6;  // kg, of a part without a volume
 /// How a lies to b.
 Pose relative(const PlacedPart& a, const PlacedPart& b) { return b.pose.inverse() * a.pose; }
 
+double to_grid(double value, double grid) { return std::round(value / grid) * grid; }
+
+/// Without the last digits, which differ between a plan and its file. Contacts are made of this one: where points of
+/// symmetric parts are equally far apart, rounding decides which of them are taken, and proofs refer to them.
+Pose to_grid(const Pose& p, double size) {
+  const auto angle = [](double x) { return to_grid(x, kSamePose); };
+  const Eigen::Quaterniond q(angle(p.q.w()), angle(p.q.x()), angle(p.q.y()), angle(p.q.z()));
+  return {p.t.unaryExpr([&](double x) { return to_grid(x, kSamePose * size); }), q.normalized()};
+}
+
+void move_by(const Pose& pose, Contact& c) {
+  c.normal = pose.q * c.normal;
+  for (Vec3& p : c.points) p = pose * p;
+}
+
 /// What bonds depend on.
 std::pair<std::string, std::string> kind_of(const Part& part) {
   return part.kind ? std::pair(part.kind->kind, part.kind->size) : std::pair<std::string, std::string>();
@@ -185,19 +200,17 @@ const std::vector<Contact>& BuiltPiles::as_assembled(PartId a, PartId b, Gaps ga
 }
 
 std::vector<Contact> BuiltPiles::contacts(const PlacedPart& a, const PlacedPart& b, Gaps gaps) const {
-  if (!in_place(a, b)) {
+  std::vector<Contact> result;
+  if (in_place(a, b)) {
+    result = as_assembled(a.part, b.part, gaps);
+  } else {
     const std::optional<double> bond = bonded(a.part, b.part) ? std::optional(0.0) : std::nullopt;
-    std::vector<Contact> result =
-        pair_contacts({&shape(a.part), a.pose}, {&shape(b.part), b.pose}, touching(gaps), bond);
+    result =
+        pair_contacts({&shape(a.part), to_grid(relative(a, b), size_)}, {&shape(b.part), {}}, touching(gaps), bond);
     for (Contact& c : result) c.friction = options_.friction;
-    return result;
   }
-  std::vector<Contact> result = as_assembled(a.part, b.part, gaps);
-  if (b.pose.t.isZero(0) && b.pose.q.vec().isZero(0)) return result;
-  for (Contact& c : result) {
-    c.normal = b.pose.q * c.normal;
-    for (Vec3& p : c.points) p = b.pose * p;
-  }
+  if (!b.pose.is_identity())
+    for (Contact& c : result) move_by(b.pose, c);
   return result;
 }
 
@@ -206,8 +219,12 @@ void BuiltPiles::add_table(std::span<const PlacedPart> parts, double lowest, con
   const std::uint32_t table = static_cast<std::uint32_t>(built.pile.bodies.size() - 1);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (height(parts[i], up) > lowest + touching(gaps) * shape(parts[i].part).radius()) continue;
-    Contact c = contact_with_table({&shape(parts[i].part), parts[i].pose}, up, lowest, touching(gaps));
+    const Pose& pose = parts[i].pose;
+    const Vec3 own = (pose.q.conjugate() * up).unaryExpr([](double x) { return to_grid(x, kSamePose); }).normalized();
+    Contact c = contact_with_table({&shape(parts[i].part), {}}, own, lowest - up.dot(pose.t), touching(gaps));
     if (c.points.empty()) continue;
+    move_by(pose, c);
+    c.normal = up;
     c.a = built.body_of[i];
     c.b = table;
     c.friction = options_.friction;
