@@ -7,6 +7,9 @@
 namespace dismantle::immobility {
 namespace {
 
+/// Rotations are stored as rotation vectors; boxes of larger ones are not divided. Radians.
+constexpr double kMostTurn = 0.5 * std::numbers::pi;
+
 bool any_side(const SearchBox::Sides& sides) { return std::find(sides.begin(), sides.end(), true) != sides.end(); }
 
 /// True if the assembled pose is in the cell.
@@ -120,6 +123,7 @@ CellDecomposition::End CellDecomposition::run(const RunContext& context) {
   const auto most = static_cast<std::size_t>(params_.max_divisions);
   // Each extension of the sampler gets a third of its first state checks.
   const auto checks = static_cast<std::size_t>(params_.walk_checks) / 3;
+  if (turns_freely(checks, context)) return End::open;
   for (std::size_t round = 1; round <= most; ++round) {
     if (context.should_stop()) return End::open;
     const std::uint32_t exit = cells_.next_exit();
@@ -158,11 +162,28 @@ CellDecomposition::End CellDecomposition::run(const RunContext& context) {
   return End::spent;
 }
 
+/// A part that turns about an axis without end, as a ring does in its groove, is found by a few state checks; growing
+/// the box until it is too large takes seconds.
+bool CellDecomposition::turns_freely(std::size_t checks, const RunContext& context) {
+  const auto turn = [&] { return sampler_.furthest_turn().head<3>().norm(); };
+  if (turn() < kMostTurn / 8) return false;
+  const Vector6 first = sampler_.furthest_turn();
+  const Pose step{first.tail<3>(), rotation_from_vector(first.head<3>())};
+  Pose to = step;
+  for (double at = turn(); at < 1.5 * kMostTurn && turn() > 0.9 * at; at += first.head<3>().norm()) {
+    to = step * to;  // further about the same axis
+    Vector6 pose;
+    pose << rotation_vector(to.q), to.t;
+    sampler_.extend_towards(pose, checks / 4, context);
+  }
+  return sampler_.furthest_turn().head<3>().cwiseAbs().maxCoeff() > kMostTurn;
+}
+
 /// True if the parts are separated, or the volume of their free poses is too large for the divisions.
 bool CellDecomposition::beyond_limits() const {
   if (sampler_.separated()) return true;
   const Vector6 most = (-box_.lo()).cwiseMax(box_.hi());
-  if (most.head<3>().maxCoeff() > 0.5 * std::numbers::pi || most.tail<3>().maxCoeff() > limits_.max_shift) return true;
+  if (most.head<3>().maxCoeff() > kMostTurn || most.tail<3>().maxCoeff() > limits_.max_shift) return true;
   // The box of the sampled poses, counted in cells of five tolerances. Only its border needs finer cells, so a few
   // times as many as there are divisions may still do.
   const Vector6 cells = (sampler_.hi() - sampler_.lo()).cwiseProduct(scale_) / (5 * limits_.tolerance);

@@ -56,6 +56,7 @@ class CellDecomposition {
   std::uint32_t blocked_at(std::uint32_t exit) const;
   SearchBox::Sides sides_reached(std::uint32_t exit) const;
   void grow(const SearchBox::Sides& sides);
+  bool turns_freely(std::size_t checks, const RunContext& context);
   bool beyond_limits() const;
   bool closed();
   void divide(std::uint32_t node);

@@ -82,6 +82,7 @@ void FreeSpaceSampler::add(const Vector6& pose) {
     if (pose[d] < lo_[d]) lo_[d] = pose[d], furthest_[at] = number;
     if (pose[d] > hi_[d]) hi_[d] = pose[d], furthest_[at + 1] = number;
   }
+  if (pose.head<3>().squaredNorm() > furthest_turn().head<3>().squaredNorm()) furthest_turn_ = number;
   if (pose.tail<3>().norm() > separated_) is_separated_ = true;
 }
 

@@ -30,6 +30,8 @@ class FreeSpaceSampler {
   bool separated() const { return is_separated_; }
   const Vector6& lo() const { return lo_; }  ///< bounds of the poses of the tree
   const Vector6& hi() const { return hi_; }
+  /// The pose of the tree that is turned furthest.
+  const Vector6& furthest_turn() const { return poses_[furthest_turn_]; }
   /// Samples that blocked an extension, ascending.
   SampleList blocking() const { return {blocking_.begin(), blocking_.end()}; }
 
@@ -52,6 +54,7 @@ class FreeSpaceSampler {
   std::vector<std::uint32_t> by_place_;  ///< samples: neighbours are near each other
   std::vector<Vector6> poses_;
   std::array<std::size_t, 12> furthest_{};  ///< poses with the least and the largest value of each coordinate
+  std::size_t furthest_turn_ = 0;
   std::set<std::uint32_t> blocking_;
   std::size_t checks_ = 0;
 };

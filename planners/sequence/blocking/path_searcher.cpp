@@ -42,7 +42,8 @@ bool PathSearcher::search_each(GroupState& group, const Subassemblies& ids, unsi
 }
 
 bool PathSearcher::search(GroupState& group, SubassemblyId id, unsigned depth, const Subassemblies& next) {
-  if (depth != 1 && snaps_.is_snap_fit(group, id)) depth = 1;
+  const std::optional<MotionDepth> snap = snaps_.decided(group, id, depth);
+  if (snap) depth = 1;
   const Attempt attempt = history_.attempt_for(group, id, depth);
   const PartId part = state_.part_of(id);
   RunContext& context = state_.context();
@@ -71,9 +72,7 @@ bool PathSearcher::search(GroupState& group, SubassemblyId id, unsigned depth, c
   }
   Outcome outcome = result.outcome();
   std::string message = result.message;
-  if (const auto snap = outcome == Outcome::depth_limit && depth == 1 && snaps_.is_snap_fit(group, id)
-                            ? snaps_.holding(group, id)
-                            : std::nullopt) {
+  if (snap && outcome == Outcome::depth_limit) {
     outcome = Outcome::exhausted;  // not searched deeper
     state_.count("snap_fits");
     message += (message.empty() ? "'" : "; '") + state_.assembly().parts[snap->part].name + "' and '" +

@@ -23,6 +23,7 @@ Run::Run(const BlockingParameters& params, const SequenceQuery& query, PathOracl
       state_(query, overlap_locks(query, oracle, context), params.order, observer, context),
       history_(state_, params),
       stated_(query.assembly),
+      relaxation_(state_, oracle, params.snap_depth_of_few),
       list_(state_, oracle) {
   const Assembly& assembly = query.assembly;
   state_.add_listener(history_);
@@ -32,7 +33,7 @@ Run::Run(const BlockingParameters& params, const SequenceQuery& query, PathOracl
     state_.add_listener(*straight_);
   }
   lookahead_ = std::make_unique<Lookahead>(state_, history_, oracle);
-  snaps_ = std::make_unique<SnapFits>(state_, oracle, straight_.get(), params, !query.said.empty());
+  snaps_ = std::make_unique<SnapFits>(state_, oracle, straight_.get(), relaxation_, params, !query.said.empty());
   searcher_ = std::make_unique<PathSearcher>(state_, history_, *lookahead_, oracle, straight_.get(), *snaps_);
   make_strategies();
 }
@@ -58,8 +59,9 @@ void Run::make_strategies() {
   if (straight_ && params_.rotations)
     list_.add(std::make_unique<RotationInPlace>(state_, oracle_, *straight_, *sweep_, params_));
   if (straight_ && params_.simultaneous)
-    list_.add(std::make_unique<SimultaneousMotion>(state_, oracle_, *straight_, *lookahead_, history_, *snaps_, params_,
-                                                   params_.max_depth, params_.play * oracle_.tolerance()));
+    list_.add(std::make_unique<SimultaneousMotion>(state_, oracle_, *straight_, *lookahead_, history_, *snaps_,
+                                                   relaxation_, params_, params_.max_depth,
+                                                   params_.play * oracle_.tolerance()));
   list_.add(std::make_unique<PathSearch>(state_, history_, *searcher_, params_));
   list_.add(std::make_unique<PairSearch>(state_, history_, *searcher_, *lookahead_, *snaps_, params_));
   list_.add(std::make_unique<PostponedSearch>(state_, history_, *searcher_, params_));

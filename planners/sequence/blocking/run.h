@@ -30,6 +30,7 @@ class Run {
   std::unique_ptr<PairSweep> sweep_;          // null without geometry
   std::unique_ptr<StraightMotion> straight_;  // null when switched off, or without geometry
   std::unique_ptr<Lookahead> lookahead_;
+  PairRelaxation relaxation_;
   std::unique_ptr<SnapFits> snaps_;
   std::unique_ptr<PathSearcher> searcher_;
   StrategyList list_;

@@ -28,6 +28,38 @@ std::optional<MotionDepth> SnapFits::holding(const GroupState& group, Subassembl
   return left.members.size() == 1 ? deepest : std::nullopt;
 }
 
+std::optional<MotionDepth> SnapFits::decided(const GroupState& group, SubassemblyId id, unsigned depth) {
+  if (has_evidence(group)) return holding(group, id);
+  if ((depth > 0 && depth < params_.snap_depth_of_few) || group.is_pair()) return std::nullopt;
+  return held_by_pairs(group, id);
+}
+
+bool SnapFits::is_free(const GroupState& group, SubassemblyId id) {
+  const std::vector<std::size_t> directions = straight_->directions_of(group, id);
+  return std::any_of(directions.begin(), directions.end(),
+                     [&](std::size_t d) { return straight_->blockers(group, id, d).empty(); });
+}
+
+std::optional<MotionDepth> SnapFits::held_by_pairs(const GroupState& group, SubassemblyId id) {
+  if (group.members.size() > params_.snap_group || !holding(group, id)) return std::nullopt;
+  GroupState left = group;
+  std::optional<MotionDepth> deepest;
+  for (bool any = true; any && left.members.size() > 1;) {
+    any = false;
+    for (const SubassemblyId other : Subassemblies(left.members)) {
+      const std::optional<MotionDepth> snap = alone(left, other);
+      const bool held = snap && relaxation_.holds(snap->part, snap->other);
+      if (state_.context().should_stop()) return std::nullopt;
+      if (!held && !(deepest && state_.is_single(other) && is_free(left, other))) continue;
+      if (held && (!deepest || snap->excess() > deepest->excess())) deepest = snap;
+      if (other == id) return deepest;
+      std::erase(left.members, other);
+      any = true;
+    }
+  }
+  return left.members.size() == 1 ? deepest : std::nullopt;
+}
+
 void SnapFits::searched(const GroupState& group, SubassemblyId id, unsigned depth, bool found) {
   if (has_evidence() || (depth > 0 && depth < params_.snap_depth)) return;
   // Of fewer parts than are evidence only searches that are deeper count: cuts are not measured for others.

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "blocking/pair_relaxation.h"
 #include "blocking/parameters.h"
 #include "blocking_graph/state.h"
 #include "blocking_graph/straight_motion.h"
@@ -20,22 +21,31 @@ namespace dismantle::blocking {
 /// than a share of the smaller part, and by less than parts that go through each other's walls. Such parts bend when
 /// they are put together. What is free when such parts are off is held so, too. No rigid motion takes most of them
 /// out. When a few deep searches of such parts have found nothing, the others are searched for to depth 1 only, and
-/// left to forced steps; so are all when there are few and each was searched for deeper. Without forced steps
+/// left to forced steps; so are all when there are few and each was searched for deeper, and those that a pair holds
+/// that no search separates when all others are taken away. Without forced steps
 /// (`run.force: off`, `bench`) no part counts as held so; of two parts alone, only those that are pressed together.
 class SnapFits {
  public:
   /// `straight`: null when switched off; then no part counts. `known_before`: an earlier planner of the run has
   /// searched for the parts that are left. All must outlive this.
-  SnapFits(const DisassemblyState& state, PathOracle& oracle, StraightMotion* straight, const SnapParameters& params,
-           bool known_before)
-      : state_(state), oracle_(oracle), straight_(straight), params_(params), known_before_(known_before) {}
+  SnapFits(const DisassemblyState& state, PathOracle& oracle, StraightMotion* straight, PairRelaxation& relaxation,
+           const SnapParameters& params, bool known_before)
+      : state_(state),
+        oracle_(oracle),
+        straight_(straight),
+        relaxation_(relaxation),
+        params_(params),
+        known_before_(known_before) {}
 
   /// The deepest place of the motion that cuts in least, of those that were measured; nullopt: not held by a snap fit.
   std::optional<MotionDepth> holding(const GroupState& group, SubassemblyId id);
-  /// Whether to search no deeper: it is held so, and enough deep searches of parts that are held so found nothing.
-  bool is_snap_fit(const GroupState& group, SubassemblyId id) {
-    return has_evidence(group) && holding(group, id).has_value();
+  /// Whether to search to depth 1 only, where `depth` comes next (0: no limit): it is held so, and enough deep searches
+  /// of parts that are held so found nothing.
+  bool is_snap_fit(const GroupState& group, SubassemblyId id, unsigned depth = 1) {
+    return decided(group, id, depth).has_value();
   }
+  /// As is_snap_fit(): the place where the snap fit cuts in deepest.
+  std::optional<MotionDepth> decided(const GroupState& group, SubassemblyId id, unsigned depth);
   /// Are all parts of the group held so, but for one at most? Then it is no puzzle of translations.
   bool holds_all(const GroupState& group);
   /// Depth to which a group is searched before the snap fits that hold it are left to forced steps; 0: none holds it.
@@ -46,6 +56,9 @@ class SnapFits {
  private:
   bool has_evidence() const { return known_before_ || failed_.size() >= params_.snap_failures; }
   bool has_evidence(const GroupState& group);
+  bool is_free(const GroupState& group, SubassemblyId id);
+  /// It is held by snap fits of pairs, or free when parts that are held so are off; no search separates these pairs.
+  std::optional<MotionDepth> held_by_pairs(const GroupState& group, SubassemblyId id);
   /// By motions of this part alone.
   std::optional<MotionDepth> alone(const GroupState& group, SubassemblyId id);
   double deepest_snap(PartId part, PartId other) const;
@@ -63,6 +76,7 @@ class SnapFits {
   const DisassemblyState& state_;
   PathOracle& oracle_;
   StraightMotion* straight_;
+  PairRelaxation& relaxation_;
   const SnapParameters& params_;
   /// By part and the others of its group, in one arrangement.
   std::map<std::pair<SubassemblyId, Subassemblies>, std::optional<MotionDepth>> known_;

@@ -20,13 +20,15 @@ double travel(const Mesh& mesh, const Pose& from, const Pose& to) {
 
 SimultaneousMotion::SimultaneousMotion(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight,
                                        const Lookahead& lookahead, const SearchHistory& history, SnapFits& snaps,
-                                       const SimultaneousMotionParameters& params, unsigned max_depth, double play)
+                                       PairRelaxation& relaxation, const SimultaneousMotionParameters& params,
+                                       unsigned max_depth, double play)
     : state_(state),
       oracle_(oracle),
       straight_(straight),
       lookahead_(lookahead),
       history_(history),
       snaps_(snaps),
+      relaxation_(relaxation),
       params_(params),
       play_(play),
       max_depth_(max_depth) {}
@@ -107,13 +109,16 @@ std::optional<Attempt> SimultaneousMotion::attempt_for(const GroupState& group, 
 
 /// As for single parts, a search is repeated when a part that it touched has left; deeper only if several parts moved.
 /// Parts that snap fits hold leave one by one, unless several of them have moved simultaneously: the interference of a
-/// snap fit is measured along straight motions only. Those that are proved to be held do not leave.
+/// snap fit is measured along straight motions only. Those that are proved to be held do not leave; nor do two, by deep
+/// searches, that do not even separate when all others are taken away.
 bool SimultaneousMotion::is_worthwhile(const GroupState& group, const Subassemblies& ids, unsigned round) {
   const auto known = last_.find(ids);
   const bool several_moved = known != last_.end() && known->second.several_moved;
   if (std::all_of(ids.begin(), ids.end(), [&](SubassemblyId s) {
         return (!several_moved && snaps_.is_snap_fit(group, s)) || is_held(group, s);
       }))
+    return false;
+  if (round == kRounds && ids.size() == 2 && relaxation_.holds(state_.part_of(ids[0]), state_.part_of(ids[1])))
     return false;
   if (known == last_.end()) return true;
   const PastMotion& last = known->second;

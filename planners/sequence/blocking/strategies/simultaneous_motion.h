@@ -23,8 +23,8 @@ class SimultaneousMotion final : public Strategy {
  public:
   /// `play`: a part that has moved by less does not count as moved; assembly units.
   SimultaneousMotion(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight, const Lookahead& lookahead,
-                     const SearchHistory& history, SnapFits& snaps, const SimultaneousMotionParameters& params,
-                     unsigned max_depth, double play);
+                     const SearchHistory& history, SnapFits& snaps, PairRelaxation& relaxation,
+                     const SimultaneousMotionParameters& params, unsigned max_depth, double play);
   std::string_view name() const noexcept override { return "simultaneous_motion"; }
   Cost cost() const noexcept override { return Cost::limited_search; }
   Result apply(GroupState& group) override;
@@ -58,6 +58,7 @@ class SimultaneousMotion final : public Strategy {
   const Lookahead& lookahead_;
   const SearchHistory& history_;
   SnapFits& snaps_;
+  PairRelaxation& relaxation_;
   const SimultaneousMotionParameters& params_;
   double play_;
   unsigned max_depth_;

@@ -113,6 +113,41 @@ TEST(SnapFits, FewPartsThatAreAllSearchedForAreLeftToForcedSteps) {
   EXPECT_GT(most_of(deepest_searches(made, ForceWhen::off)), BlockingParameters{}.snap_depth_of_few);
 }
 
+/// A square ring between heights, about the axis of z.
+Mesh ring(double inner, double outer, double z0, double z1) {
+  Mesh made = shapes::box({-outer, -outer, z0}, {-inner, outer, z1});
+  made = shapes::joined(made, shapes::box({inner, -outer, z0}, {outer, outer, z1}));
+  made = shapes::joined(made, shapes::box({-inner, -outer, z0}, {inner, -inner, z1}));
+  return shapes::joined(made, shapes::box({-inner, inner, z0}, {inner, outer, z1}));
+}
+
+// A wheel on a shaft between a collar, over which it snaps, and a clip in a groove. The clip alone, with the wheel
+// taken away, does not leave the shaft, and the wheel does without the clip: nobody searches deeply for all three.
+TEST(SnapFits, ASearchForThePairDecidesForWhatItHolds) {
+  Mesh shaft = shapes::box({-1.1, -1.1, 0}, {1.1, 1.1, 1});
+  shaft = shapes::joined(shaft, shapes::box({-1, -1, 1}, {1, 1, 3}));
+  shaft = shapes::joined(shaft, shapes::box({-0.85, -0.85, 3}, {0.85, 0.85, 3.5}));
+  shaft = shapes::joined(shaft, shapes::box({-1, -1, 3.5}, {1, 1, 4}));
+  const Assembly made = shapes::assembly_of({shaft, ring(1, 3, 1, 3), ring(0.9, 1.5, 3, 3.5)});
+  std::vector<std::size_t> deep;  // parts in the scenes of deep searches
+  const auto search = [&](const PathQuery& query, RunContext& context) {
+    const std::size_t parts = query.scene.moving.size() + query.scene.fixed.size();
+    if (query.budget.max_depth == 0 || query.budget.max_depth >= BlockingParameters{}.snap_depth_of_few)
+      deep.push_back(parts);
+    if (const Pose up{{0, 0, 30}, Eigen::Quaterniond::Identity()}; parts == 2)
+      if (PathResult straight = fake::shown(query, {{Pose{}}, {up}}); straight.path()) return straight;
+    return fake::shallow(query, context);
+  };
+  for (const bool forced : {true, false}) {
+    deep.clear();
+    RunOptions options;
+    options.force = forced ? ForceWhen::last_resort : ForceWhen::off;
+    fake::take_apart(made, 1, options, search);
+    EXPECT_EQ(std::ranges::count(deep, 3u) > 0, !forced);
+    if (forced) EXPECT_GE(std::ranges::count(deep, 2u), 1);
+  }
+}
+
 TEST(SnapFits, DoNotCountInAnAssemblyOfTwoParts) {
   EXPECT_EQ(most_of(deepest_searches(clipped(0.1, false), ForceWhen::last_resort)), kNoLimit);
 }
