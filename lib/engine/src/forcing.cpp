@@ -41,7 +41,17 @@ std::optional<MotionDepth> Forcing::depth(const std::vector<PartId>& moving, con
   return meter_.deepest(moving, fixed, path, options, context);
 }
 
-/// A proof about the deepest pair first, then one of those that are known.
+/// What a forced step cuts through was perhaps never the last pair of its group, for which costly proofs are tried. In
+/// one assembly such pairs are mostly of one kind.
+const Certificate* Forcing::costly_proof(const MotionDepth& deepest, const RunContext& context) {
+  constexpr unsigned kMostFailures = 2;
+  if (failed_proofs_ >= kMostFailures || deepest.excess() <= 0) return nullptr;
+  const Certificate* found = oracle_.proofs().prove_high(deepest.part, deepest.other, context);
+  failed_proofs_ = found != nullptr ? 0 : failed_proofs_ + 1;
+  return found;
+}
+
+/// A proof about the deepest pair first, then one of those that are known, at last a costly one.
 const Certificate* Forcing::proof_for(const Attempt& attempt, const MotionDepth& deepest,
                                       std::span<const Unsolved> said, const RunContext& context) {
   if (!context.should_stop())
@@ -50,7 +60,7 @@ const Certificate* Forcing::proof_for(const Attempt& attempt, const MotionDepth&
       return pair;
   for (const Unsolved& u : said)
     if (u.certificate != nullptr && divides(*u.certificate, attempt)) return u.certificate;
-  return nullptr;
+  return context.should_stop() ? nullptr : costly_proof(deepest, context);
 }
 
 void Forcing::prove_left(std::vector<Unsolved>& unsolved, const std::vector<std::vector<PlacedPart>>& groups,

@@ -34,6 +34,7 @@ class Forcing final : public ForcingOracle {
  private:
   const Certificate* proof_for(const Attempt& attempt, const MotionDepth& deepest, std::span<const Unsolved> said,
                                const RunContext& context);
+  const Certificate* costly_proof(const MotionDepth& deepest, const RunContext& context);
   std::string reason_for(const Attempt& attempt, const ForcedRemoval& removal, std::span<const Unsolved> said) const;
 
   const Assembly& assembly_;
@@ -42,6 +43,7 @@ class Forcing final : public ForcingOracle {
   const ProofOptions& proofs_;
   PathNormalizer normalizer_;
   MotionDepthMeter meter_;
+  unsigned failed_proofs_ = 0;  // of high effort about forced pairs, one after the other
 };
 
 }  // namespace dismantle

@@ -282,7 +282,6 @@ const Certificate* ProofSchedule::prove_reduced(PartId a, PartId b, const RunCon
   return prove({{a, b}, ProofEffort::high, options_.reduced_tolerance}, context);
 }
 
-/// For the whole tolerance if it can be proved, else for the reduced one.
 const Certificate* ProofSchedule::prove_high(PartId a, PartId b, const RunContext& context) {
   const Certificate* found = prove_reduced(a, b, context);
   if (found == nullptr || found->full_tolerance) return found;

@@ -60,6 +60,8 @@ class ProofSchedule {
 
   /// Proof that two parts cannot be separated, for the full tolerance; by provers of low effort first, up to `most`.
   const Certificate* prove_pair(PartId a, PartId b, ProofEffort most, const RunContext& context);
+  /// With high effort: for the full tolerance if that can be proved, else for the reduced one.
+  const Certificate* prove_high(PartId a, PartId b, const RunContext& context);
 
   PartMemo& memo() { return memo_; }
   /// Time of all proofs, summed over threads, speculative ones included.
@@ -78,7 +80,6 @@ class ProofSchedule {
   const Certificate* answer_to(const SeparationQuestion& key, const RunContext& context);
   double cut_of(PartId a, PartId b, const RunContext& context);
   const Certificate* prove_reduced(PartId a, PartId b, const RunContext& context);
-  const Certificate* prove_high(PartId a, PartId b, const RunContext& context);
   const Certificate* prove_placed(const Attempt& attempt, const RunContext& context);
   const Certificate* prove_low(const Attempt& attempt, const RunContext& context);
   bool is_holdable(const Attempt& attempt) const;

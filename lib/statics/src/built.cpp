@@ -16,23 +16,14 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kSamePose = 1e-9;        // of the size of the assembly, and in radians
-constexpr double kPlay = 10;              // Gaps::play
-constexpr double kSeat = 0.3;             // cosine: a contact that stops a motion; otherwise it lies along it
-constexpr double kAlmostNoWeight = 1e-6;  // kg, of a part without a volume
+constexpr double kSamePose = 1e-9;         // of the size of the assembly, and in radians
+constexpr std::size_t kMostKept = 100000;  // lists of contacts
+constexpr double kPlay = 10;               // Gaps::play
+constexpr double kSeat = 0.3;              // cosine: a contact that stops a motion; otherwise it lies along it
+constexpr double kAlmostNoWeight = 1e-6;   // kg, of a part without a volume
 
 /// How a lies to b.
 Pose relative(const PlacedPart& a, const PlacedPart& b) { return b.pose.inverse() * a.pose; }
-
-double to_grid(double value, double grid) { return std::round(value / grid) * grid; }
-
-/// Without the last digits, which differ between a plan and its file. Contacts are made of this one: where points of
-/// symmetric parts are equally far apart, rounding decides which of them are taken, and proofs refer to them.
-Pose to_grid(const Pose& p, double size) {
-  const auto angle = [](double x) { return to_grid(x, kSamePose); };
-  const Eigen::Quaterniond q(angle(p.q.w()), angle(p.q.x()), angle(p.q.y()), angle(p.q.z()));
-  return {p.t.unaryExpr([&](double x) { return to_grid(x, kSamePose * size); }), q.normalized()};
-}
 
 void move_by(const Pose& pose, Contact& c) {
   c.normal = pose.q * c.normal;
@@ -183,32 +174,39 @@ bool BuiltPiles::is_clamped(const std::vector<PartId>& group, const std::vector<
 
 double BuiltPiles::touching(Gaps gaps) const { return (gaps == Gaps::play ? kPlay : 1) * options_.touching; }
 
-const std::vector<Contact>& BuiltPiles::as_assembled(PartId a, PartId b, Gaps gaps) const {
-  const std::tuple key(a, b, gaps);
-  auto known = contacts_.find(key);
-  if (known == contacts_.end()) {
-    // A wider gap finds more, but takes narrow regions for rims: it must not undo a bond.
-    const Neighbour* near = neighbour(a, b);
-    const std::optional<double> bond = near == nullptr ? std::nullopt : near->bond;
-    known =
-        contacts_
-            .emplace(key, pair_contacts({&shape(a), {}}, {&shape(b), {}}, touching(bond ? Gaps::tight : gaps), bond))
-            .first;
-    for (Contact& c : known->second) c.friction = options_.friction;
+/// Without the last digits, which differ between a plan and its file: where points of symmetric parts are equally far
+/// apart, rounding decides which of them are taken as contacts, and proofs refer to contacts.
+BuiltPiles::GridPose BuiltPiles::on_grid(const PlacedPart& a, const PlacedPart& b) const {
+  if (in_place(a, b)) return {};
+  const Pose p = relative(a, b);
+  const double length = kSamePose * size_;
+  return {std::llround(p.t.x() / length),    std::llround(p.t.y() / length),    std::llround(p.t.z() / length),
+          std::llround(p.q.w() / kSamePose), std::llround(p.q.x() / kSamePose), std::llround(p.q.y() / kSamePose),
+          std::llround(p.q.z() / kSamePose)};
+}
+
+const std::vector<Contact>& BuiltPiles::contacts_at(PartId a, PartId b, Gaps gaps, const GridPose& at) const {
+  const std::tuple key(a, b, gaps, at);
+  if (const auto known = contacts_.find(key); known != contacts_.end()) return known->second;
+  if (contacts_.size() >= kMostKept) contacts_.clear();
+  const Neighbour* near = neighbour(a, b);
+  std::optional<double> bond = near == nullptr ? std::nullopt : near->bond;
+  Pose pose;
+  if (at != GridPose{}) {
+    if (bond) bond = 0;
+    const auto value = [&](std::size_t k) { return static_cast<double>(at[k]) * kSamePose; };
+    pose.t = size_ * Vec3(value(0), value(1), value(2));
+    pose.q = Eigen::Quaterniond(value(3), value(4), value(5), value(6)).normalized();
+  } else if (bond) {
+    gaps = Gaps::tight;  // a wider gap finds more, but takes narrow regions for rims: it must not undo a bond
   }
-  return known->second;
+  std::vector<Contact> found = pair_contacts({&shape(a), pose}, {&shape(b), {}}, touching(gaps), bond);
+  for (Contact& c : found) c.friction = options_.friction;
+  return contacts_.emplace(key, std::move(found)).first->second;
 }
 
 std::vector<Contact> BuiltPiles::contacts(const PlacedPart& a, const PlacedPart& b, Gaps gaps) const {
-  std::vector<Contact> result;
-  if (in_place(a, b)) {
-    result = as_assembled(a.part, b.part, gaps);
-  } else {
-    const std::optional<double> bond = bonded(a.part, b.part) ? std::optional(0.0) : std::nullopt;
-    result =
-        pair_contacts({&shape(a.part), to_grid(relative(a, b), size_)}, {&shape(b.part), {}}, touching(gaps), bond);
-    for (Contact& c : result) c.friction = options_.friction;
-  }
+  std::vector<Contact> result = contacts_at(a.part, b.part, gaps, on_grid(a, b));
   if (!b.pose.is_identity())
     for (Contact& c : result) move_by(b.pose, c);
   return result;
@@ -220,7 +218,9 @@ void BuiltPiles::add_table(std::span<const PlacedPart> parts, double lowest, con
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (height(parts[i], up) > lowest + touching(gaps) * shape(parts[i].part).radius()) continue;
     const Pose& pose = parts[i].pose;
-    const Vec3 own = (pose.q.conjugate() * up).unaryExpr([](double x) { return to_grid(x, kSamePose); }).normalized();
+    const Vec3 own = (pose.q.conjugate() * up)
+                         .unaryExpr([](double x) { return std::round(x / kSamePose) * kSamePose; })
+                         .normalized();
     Contact c = contact_with_table({&shape(parts[i].part), {}}, own, lowest - up.dot(pose.t), touching(gaps));
     if (c.points.empty()) continue;
     move_by(pose, c);

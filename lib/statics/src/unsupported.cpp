@@ -38,8 +38,9 @@ std::size_t BuiltPiles::unsupported(std::span<const PlacedPart> parts, std::span
       for (const Neighbour& n : neighbours_[body[i].part]) {
         const PlacedPart* other = there[n.part];
         if (other == nullptr || seen[n.part] || !n.bond) continue;
-        if (!one_unit(body[i].part, n.part) && (all_in_place ? as_assembled(body[i].part, n.part, Gaps::tight).empty()
-                                                             : contacts(body[i], *other, Gaps::tight).empty()))
+        if (!one_unit(body[i].part, n.part) &&
+            (all_in_place ? contacts_at(body[i].part, n.part, Gaps::tight, {}).empty()
+                          : contacts(body[i], *other, Gaps::tight).empty()))
           continue;
         add(n.part);
       }

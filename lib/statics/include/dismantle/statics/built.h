@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -34,8 +35,8 @@ struct BuiltPile {
   std::vector<std::uint32_t> body_of;  ///< by index into the parts that were given
 };
 
-/// Makes piles of the parts of one assembly. Contacts of parts that lie to each other as assembled are kept. Functions
-/// may be called from several threads.
+/// Makes piles of the parts of one assembly. Contacts are found once for each relative pose of two parts. Functions may
+/// be called from several threads.
 class DISMANTLE_API BuiltPiles {
  public:
   /// Keeps the meshes, not the assembly. Options: `fixed`, `friction`, `density`, `mass`, `touching`.
@@ -80,7 +81,11 @@ class DISMANTLE_API BuiltPiles {
   Body body(const PlacedPart& part) const;
   /// Contacts of a on b; Contact::a and b are not set.
   std::vector<Contact> contacts(const PlacedPart& a, const PlacedPart& b, Gaps gaps) const;
-  const std::vector<Contact>& as_assembled(PartId a, PartId b, Gaps gaps) const;
+  /// Relative poses on a grid, in steps of it: translation, then rotation. All 0: as assembled.
+  using GridPose = std::array<std::int64_t, 7>;
+  GridPose on_grid(const PlacedPart& a, const PlacedPart& b) const;
+  /// In the frame of b. They are kept.
+  const std::vector<Contact>& contacts_at(PartId a, PartId b, Gaps gaps, const GridPose& pose) const;
   double touching(Gaps gaps) const;
   bool bonded(PartId a, PartId b) const;
   /// By part: where it is; null: it is not there.
@@ -110,7 +115,7 @@ class DISMANTLE_API BuiltPiles {
   std::vector<std::vector<Neighbour>> neighbours_;          // by part: those whose boxes are near, ascending
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<const Shape>> shapes_;
-  mutable std::map<std::tuple<PartId, PartId, Gaps>, std::vector<Contact>> contacts_;  // as assembled
+  mutable std::map<std::tuple<PartId, PartId, Gaps, GridPose>, std::vector<Contact>> contacts_;
   mutable std::map<std::vector<double>, bool> alone_;
 };
 
