@@ -118,10 +118,10 @@ struct MotionDepthMeter::Impl {
     return {};
   }
 
-  /// Of a motion without turns past parts that have an inside; else empty. As pair().
+  /// Of a motion without turns past parts that have an inside; else empty. As pair(); with `left_out`, as elsewhere().
   std::optional<bool> straight(PartId part, const PairMotion& motion, const PlacedPart& other,
                                const MotionDepthOptions& options, const RunContext& context, double allowed,
-                               std::optional<MotionDepth>& worst) {
+                               std::optional<MotionDepth>& worst, const Aabb* left_out = nullptr) {
     constexpr std::uint64_t kPieces = 500;  // take as long as measuring a pose
     const auto closed = [](const geometry::Solid& solid) { return !solid.open; };
     const auto &moving = verifier.solids(part), &fixed = verifier.solids(other.part);
@@ -142,7 +142,8 @@ struct MotionDepthMeter::Impl {
                                          return std::max(options.absolute, options.relative * std::max(least, depth));
                                        },
                                    .enough = enough(options, allowed),
-                                   .most_pieces = kPieces * options.most_poses};
+                                   .most_pieces = kPieces * options.most_poses,
+                                   .left_out = left_out};
           const SweptDepth found = swept_depth(x, motion.at(u + 1).t - from.t, y, search, context);
           if (found.deepest.depth > search.from)
             raise(worst, {part, other.part, found.deepest.depth, allowed, found.deepest.point, false});
@@ -245,11 +246,27 @@ struct MotionDepthMeter::Impl {
   /// verifier proves that nothing is deeper than the deepest point so far, or says when to measure again.
   bool elsewhere(PartId part, const PairMotion& motion, const PlacedPart& other, const Aabb& region,
                  const MotionDepthOptions& options, const RunContext& context, std::optional<MotionDepth>& worst) {
+    if (const auto answer = straight(part, motion, other, options, context, 0, worst, &region)) return *answer;
     const auto known = [&] { return worst ? worst->excess() : 0; };
     const auto raise_to = [&](double depth, const Eigen::Vector3d& point) {
       if (depth <= known()) return false;
       raise(worst, {part, other.part, depth, 0, point, false});
       return true;
+    };
+    const auto depth_at = [&](double u, double tolerance) {
+      return deepest_penetration(body(part), motion.at(u), body(other.part), other.pose,
+                                 {.tolerance = tolerance, .from = known(), .left_out = &region}, context);
+    };
+    // The check may give up where nothing is deeper. Other places may show what is.
+    const auto raised_at_samples = [&] {
+      constexpr int kSamples = 32;
+      bool raised = false;
+      for (int k = 1; k < kSamples && !context.should_stop(); ++k) {
+        const double u = static_cast<double>(motion.segments()) * k / kSamples;
+        const Penetration then = depth_at(u, 0.5 * resolution(options, worst));
+        raised = raise_to(then.depth, then.point) || raised;
+      }
+      return raised;
     };
     std::uint64_t measured = 0;
     for (const geometry::Solid& x : verifier.solids(part))
@@ -266,15 +283,13 @@ struct MotionDepthMeter::Impl {
           const geometry::Finding found = geometry::check_pair(x, y, solids.forward, solids.backward(), limits, budget);
           if (found.answer == geometry::Answer::certified) break;
           if (context.should_stop() || known() > options.stop_above || ++measured > options.most_poses) return false;
-          const Penetration then =
-              deepest_penetration(body(part), motion.at(found.time), body(other.part), other.pose,
-                                  {.tolerance = 0.5 * sure, .from = known(), .left_out = &region}, context);
+          const Penetration then = depth_at(found.time, 0.5 * sure);
           bool higher = raise_to(then.depth, then.point);
           if (found.answer == geometry::Answer::violated) {
             const Pose place = found.of_second ? other.pose * y.frame : motion.at(found.time) * x.frame;
             higher = raise_to(found.depth, place * found.point) || higher;
           }
-          if (!higher) return false;
+          if (!higher && !raised_at_samples()) return false;
         }
     return !context.should_stop() && known() <= options.stop_above;
   }

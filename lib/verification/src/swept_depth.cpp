@@ -94,6 +94,34 @@ class SweptDescent {
     for (std::uint32_t k = node.first; k < node.first + node.count; ++k) add_triangle(a_.bvh.order()[k]);
   }
 
+  /// `x` in the frame of B, after that share of the way.
+  Vec3 in_part_a(const Vec3& x, double share) const {
+    return a_.frame * Vec3(place_.r.transpose() * (x - share * along_ - place_.t));
+  }
+  bool is_left_out(const Vec3& x, double share) const {
+    return search_.left_out != nullptr &&
+           (search_.left_out->contains(b_.frame * x) || search_.left_out->contains(in_part_a(x, share)));
+  }
+
+  /// All of it, in one of the two frames.
+  bool is_left_out(const Piece& piece) const {
+    if (search_.left_out == nullptr) return false;
+    const auto all = [&](const auto& is_in) { return std::ranges::all_of(piece.patch.p, is_in); };
+    return all([&](const Vec3& p) {
+             return search_.left_out->contains(b_.frame * p) &&
+                    search_.left_out->contains(b_.frame * Vec3(p + piece.by));
+           }) ||
+           (!piece.strip && all([&](const Vec3& p) { return search_.left_out->contains(in_part_a(p, piece.begin)); }));
+  }
+
+  /// A strip has points of the triangle at all instants: it cannot be left out in the frame of A.
+  bool comes_near_region(const Corners& corners) const {
+    if (search_.left_out == nullptr) return false;
+    Aabb box;
+    for (const Vec3& p : corners) box.extend(in_part_a(p, 0));
+    return search_.left_out->overlaps(box);
+  }
+
   void add_triangle(std::uint32_t t) {
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
     const Triangle& v = a_.mesh.triangles[t];
@@ -103,7 +131,8 @@ class SweptDescent {
                 along_};
     const Vec3 normal = place_.r * a_.normals[t];
     // So far off its own plane that the depth changes by no more than rounding.
-    if (normal.isZero() || std::abs(normal.dot(along_)) > kRounding * (a_.box.size().norm() + along_.norm())) {
+    if (normal.isZero() || std::abs(normal.dot(along_)) > kRounding * (a_.box.size().norm() + along_.norm()) ||
+        comes_near_region(piece.patch.p)) {
       add(std::move(piece), kInfinite);
       return;
     }
@@ -124,7 +153,9 @@ class SweptDescent {
 
   void found(double depth, const Vec3& x, const Piece& piece, double share) {
     if (depth <= deepest_.depth) return;
-    deepest_ = {depth, world_(x, piece.strip ? share_on_strip(x, piece.patch.triangle) : share)};
+    if (piece.strip) share = share_on_strip(x, piece.patch.triangle);
+    if (is_left_out(x, share)) return;
+    deepest_ = {depth, world_(x, share)};
   }
 
   /// When the triangle is at a point of its strip.
@@ -152,6 +183,7 @@ class SweptDescent {
 
   /// Settles the piece or divides it.
   void examine(const Piece& piece) {
+    if (is_left_out(piece)) return;
     const Patch& patch = piece.patch;
     const Corners& p = patch.p;
     const Corners last{p[0] + piece.by, p[1] + piece.by, p[2] + piece.by};

@@ -17,6 +17,7 @@ struct SweptSearch {
   std::function<double(double)> resolution;                 ///< of the answer, by the depth that is known; > 0
   double enough = std::numeric_limits<double>::infinity();  ///< the search ends at the first point so deep
   std::uint64_t most_pieces = 100'000;  ///< of the surface and the way; with more needed, it is not settled
+  const Aabb* left_out = nullptr;       ///< points in it do not count, in the frame of either part; null: all do
 };
 
 struct SweptDepth {

@@ -7,6 +7,7 @@
 #include "dismantle/testing/shapes.h"
 #include "dismantle/testing/trials.h"
 #include "dismantle/verification/contact.h"
+#include "dismantle/verification/motion_depth.h"
 #include "dismantle/verification/verifier.h"
 
 namespace dismantle {
@@ -187,6 +188,41 @@ TEST(OverlapRegion, AgreesWithSamplesOnRandomBlocks) {
   EXPECT_GT(refused, 10);
   EXPECT_GT(accepted, 5);
   EXPECT_LT(unclear, refused + accepted);
+}
+
+// The depth that is measured along a straight motion counts what lies outside the region, wherever on the way: a block
+// that overlaps another, past up to three more, in any direction.
+TEST(OverlapRegion, TheDepthOfAMotionIsThatOfSamplesOutsideOfIt) {
+  Rng rng(3);
+  int deep = 0;
+  for (int trial = 0; trial < testing_support::trials(40, 600); ++trial) {
+    Blocks blocks;
+    blocks.a = {{Vec3(0, 0, 0), Vec3(rng.uniform(0.4, 3), 1, 1)}};
+    blocks.b = {{Vec3(-0.3, 1 - rng.uniform(0.2, 0.4), -0.2), Vec3(rng.uniform(0.5, 2), 2, 1.2)}};
+    for (std::uint64_t k = rng.below(4); k > 0; --k) {
+      const Vec3 at(rng.uniform(3.5, 6), rng.uniform(-1.5, 1.8), rng.uniform(-1, 1));
+      blocks.b.push_back({at, at + Vec3(rng.uniform(0.3, 1), rng.uniform(0.3, 1), rng.uniform(0.3, 1))});
+    }
+    const Vec3 displacement(9, rng.uniform(-0.3, 0.3), rng.uniform(-0.5, 0.5));
+    const Assembly assembly = measured(shapes::boxes(blocks.a), shapes::boxes(blocks.b));
+    const Verifier verifier(assembly, {kTolerance});
+    const auto region = verifier.overlap_region(0, 1);
+    if (!region) continue;
+    const double allowed = assembly.initial_overlap(0, 1);
+    const auto found = MotionDepthMeter(assembly, verifier)
+                           .deepest({0}, {{1, Pose{}}}, {{Pose{}}, {shift(displacement)}},
+                                    {.absolute = 0.5 * kTolerance, .relative = 0.02}, RunContext{});
+    const double excess = found ? found->excess() : 0;
+    const double least = deepest_outside(blocks, displacement, *region, 1e-3);
+    EXPECT_GT(excess, 0.97 * least - kTolerance) << "trial " << trial;
+    // Nothing is deeper than what the samples find anywhere, but for what lies between them.
+    const double most = std::max(deepest_outside(blocks, displacement, *region, -0.03),
+                                 deepest_outside(blocks, displacement, Aabb{}, 0) - allowed);
+    EXPECT_LT(excess, 1.05 * most + 0.1) << "trial " << trial;
+    if (found) EXPECT_TRUE(found->proved) << "trial " << trial;
+    deep += least > 0.1 ? 1 : 0;
+  }
+  EXPECT_GT(deep, 10);
 }
 
 }  // namespace
