@@ -6,8 +6,8 @@
     tests/results/gate.py --assembly 'cad/fb_*' --tolerance 0.001
     tests/results/gate.py --assembly cad/as1_oc_214 --record   # write what is found now into the tables
 
-Plans each row of expected.csv with counted budgets (no seconds decide) and without an objective, and compares the plan with the row and with its
-proofs in proofs.csv. README.md says what the columns mean and what counts as worse, different and better.
+Plans each row of expected.csv with counted budgets (no seconds decide) and without an objective, verifies the plan, and compares it with the row and
+with its proofs in proofs.csv. README.md says what the columns mean and what counts as worse, different and better.
 Exit status: 0 all rows are as recorded; 1 some are not; 2 wrong usage; 77 every selected row was skipped.
 """
 import argparse
@@ -233,8 +233,19 @@ class Planner:
             return dict.fromkeys(FOUND, "0") | {"exit": "3", "status": "error", "order": "", "forced": ""}, [], 0.0
         if done.returncode not in (0, 1) or "removed" not in summary:
             raise NoResult(f"exit status {done.returncode}: {done.stderr.strip() or done.stdout.strip()}")
+        self.verify(target / "plan.json", source)
         plan = json.loads((target / "plan.json").read_text(encoding="utf-8"))
         return *found_in(plan, done.returncode, summary), summary["cpu_seconds"]
+
+    def verify(self, plan, source):
+        """A plan that `verify` refuses is no result, whatever its planner says of it."""
+        done = self.call("verify", plan, "--assembly", source, "-q", "--format", "json")
+        try:
+            problems = json.loads(done.stdout.splitlines()[-1])["problems"]
+        except (IndexError, ValueError, KeyError):
+            raise NoResult(f"'verify' ended with exit status {done.returncode}: {done.stderr.strip()}") from None
+        if problems:
+            raise NoResult(f"'verify' refuses the plan: {json.dumps(problems[0])}")
 
 
 # ---- the gate

@@ -14,12 +14,15 @@ import gate
 PLANNED = {"exit": "1", "status": "forced", "parts": "4", "removed": "3", "full_proofs": "1", "reduced_proofs": "0",
            "order": "lid > clip > pin", "forced": "2: clip into ledge 0.5"}
 PROOF = ("clip ledge", "hook", "yes")
-# Answers `plan` with what answer.json beside it holds, `sample` with nothing.
+# Answers `plan` and `verify` with what answer.json beside it holds, `sample` with nothing.
 PROGRAM = """#!/usr/bin/env python3
 import json, pathlib, sys
 answer = json.loads((pathlib.Path(__file__).parent / "answer.json").read_text())
 if sys.argv[1] == "sample":
     sys.exit(0)
+if sys.argv[1] == "verify":
+    print(json.dumps({"problems": answer["problems"]}))
+    sys.exit(1)
 (pathlib.Path(__file__).parent / "arguments.json").write_text(json.dumps(sys.argv))
 target = pathlib.Path(sys.argv[sys.argv.index("-o") + 1])
 target.mkdir(parents=True)
@@ -39,7 +42,8 @@ def answer(**changes):
     plan = {"status": "forced", "assembly": {"parts": [{}] * 4},
             "disassembly": [step(1, "lid"), step(2, "clip", forced=("clip", "ledge", 0.5)), step(3, "pin")],
             "certificates": [{"parts": ["clip", "ledge"], "kind": "hook", "full_tolerance": True}]}
-    return {"exit": changes.pop("exit", 1), "removed": changes.pop("removed", 3), "plan": plan | changes}
+    return {"exit": changes.pop("exit", 1), "removed": changes.pop("removed", 3), "problems": changes.pop("problems", []),
+            "plan": plan | changes}
 
 
 class Comparison(unittest.TestCase):
@@ -173,6 +177,10 @@ class WholeGate(unittest.TestCase):
     def test_a_failure_is_never_recorded(self):
         self.answer(exit=4)
         self.assert_fails_and_records_nothing("exit status 4", "--record", "--accept-worse")
+
+    def test_a_plan_that_verify_refuses_fails(self):
+        self.answer(problems=[{"step": 2, "message": "it cuts in deeper"}])
+        self.assert_fails_and_records_nothing("it cuts in deeper", "--record", "--accept-worse")
 
     def test_a_depth_that_depends_on_the_clock_fails(self):
         forced = step(1, "clip", forced=("clip", "ledge", 0.5))
