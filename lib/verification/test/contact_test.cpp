@@ -11,6 +11,8 @@
 #include "dismantle/run_context.h"
 #include "dismantle/samples/samples.h"
 #include "dismantle/testing/shapes.h"
+#include "dismantle/testing/trials.h"
+#include "dismantle/verification/verifier.h"
 #include "sample_checks.h"
 
 namespace dismantle {
@@ -93,6 +95,31 @@ TEST_P(EverySampleContact, HasTheClassOfItsTruth) {
 
 INSTANTIATE_TEST_SUITE_P(All, EverySampleContact, ::testing::ValuesIn(samples::sample_names()),
                          [](const auto& test) { return test.param; });
+
+// A thread overlaps its bore on a helix, which reaches the rim at one place. The screw leaves straight past all of it,
+// however the parts lie: the region of the overlap goes around the axis.
+TEST(Contact, AScrewThatBitesLeavesStraightInAnyPose) {
+  const samples::Sample& sample = *samples::find("plain_bore_screw");
+  constexpr double kTolerance = 0.001;
+  Rng rng(43);
+  for (int i = 0; i < testing_support::trials(8, 100); ++i) {
+    ParamSet drawn;
+    if (i > 0) samples::random_model(sample, rng, drawn);
+    drawn["rotate_seed"] = std::int64_t{0};
+    const PlacedModel p = placed_model(samples::make_model(sample.name, drawn), rng);
+    SCOPED_TRACE(samples::text(drawn));
+    Assembly assembly = shapes::assembly_of({p.model.parts[0].mesh, p.model.parts[1].mesh});
+    const Penetration deepest = deepest_penetration(p.bodies[0], Pose{}, p.bodies[1], Pose{}, kContactTolerance);
+    assembly.overlaps = {
+        {0, 1, deepest.depth, classify_overlap(p.bodies[0], p.bodies[1], deepest, kContactTolerance).place}};
+    const Verifier verifier(assembly, {kTolerance});
+    const auto leaves = [&](double sign) {
+      const Eigen::Vector3d out = p.pose.q * Eigen::Vector3d(0, 0, sign * 20);
+      return verifier.check_motion({1}, {{0, Pose{}}}, {{Pose{}}, {shapes::shift(out)}}).valid;
+    };
+    EXPECT_TRUE(leaves(1) || leaves(-1)) << "pose " << i;
+  }
+}
 
 TEST(Contact, DepthOfRandomPressFitsIsHalfTheInterference) {
   Rng rng(42);

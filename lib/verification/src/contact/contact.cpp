@@ -1,6 +1,7 @@
 #include "dismantle/verification/contact.h"
 
 #include <algorithm>
+#include <limits>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -69,12 +70,16 @@ bool lies_in(const Field& inner, const Field& outer, double tolerance) {
 struct Overlap {
   double near_area = 0, area = 0, depth_area = 0;  ///< of facing cells; depth_area: integral of the depth
   Aabb region;
+  std::vector<Vec3> corners;  ///< of the cells in it
   std::vector<FittedPlace> deep;
 
   void add(const std::vector<SurfaceCell>& cells, double reach, double depth, double tolerance, double sign) {
     for (const SurfaceCell& c : cells) {
       if (c.seen.depth > tolerance)
-        for (const Vec3& p : c.p) region.extend(p);
+        for (const Vec3& p : c.p) {
+          region.extend(p);
+          corners.push_back(p);
+        }
       if (!c.faces() || c.seen.depth < -reach) continue;
       near_area += c.area;
       if (c.seen.depth <= tolerance) continue;
@@ -84,6 +89,23 @@ struct Overlap {
     }
   }
 };
+
+/// The box around all that the points pass when they turn about the axis. A thread overlaps its bore on a helix, which
+/// covers the rim of the bore at one place: a box of it depends on how the parts lie, and that of its turns does not.
+Aabb box_of_ring(const std::vector<Vec3>& points, const RoundAxis& axis) {
+  double low = std::numeric_limits<double>::infinity(), high = -low, radius = 0;
+  for (const Vec3& p : points) {
+    const double along = axis.direction.dot(p - axis.point);
+    low = std::min(low, along);
+    high = std::max(high, along);
+    radius = std::max(radius, (p - axis.point - along * axis.direction).norm());
+  }
+  const Vec3 reach = radius * (Vec3::Ones() - axis.direction.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
+  Aabb box;
+  for (const double along : {low, high})
+    for (const double sign : {1.0, -1.0}) box.extend(axis.point + along * axis.direction + sign * reach);
+  return box;
+}
 
 OverlapPlace place_of(const Field& a, const Field& b, const Penetration& deepest, double tolerance) {
   // Surfaces are near within 4 depths, or 2 % of the smaller part's diagonal. An overlap whose depth grows from 0, as
@@ -95,11 +117,13 @@ OverlapPlace place_of(const Field& a, const Field& b, const Penetration& deepest
   sum.add(survey(b, a, reach, finest), reach, deepest.depth, tolerance, -1);
   OverlapPlace place;
   place.at = deepest.point;
+  const auto axis = round_axis(sum.deep);
+  if (axis && !sum.corners.empty()) sum.region = box_of_ring(sum.corners, *axis);
   // Cells at the border reach out of the overlap, but no part of the overlap is outside either box.
   if (!sum.region.empty()) place.region = common_box(sum.region, common_box(a.box(), b.box()));
   place.region.extend(deepest.point);
   place.share = sum.near_area > 0 ? sum.area / sum.near_area : 0;
-  if (const auto axis = round_axis(sum.deep)) {
+  if (axis) {
     place.axis = axis->direction;
     place.axis_point = axis->point;
   }
