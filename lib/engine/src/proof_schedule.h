@@ -30,7 +30,8 @@ namespace dismantle {
 ///   and those that it touched most.
 /// - Medium: in deep attempts of one part against one other. High: after these, with the reduced tolerance, only if no
 ///   deeper attempt can follow.
-/// - All: at the end of the run, about each remaining part and the only part that it touched, or about a few together.
+/// - All: at the end of the run, about each remaining part and the only part that it touched, or about a few together;
+///   and about the pair that a forced step cuts through deepest.
 ///
 /// Proofs of high effort try multiples of the tolerance where what holds a pair is far deeper, else the reduced
 /// tolerance: it takes less time than the full one, and what is not proved with it is not proved with the full

@@ -20,7 +20,6 @@ class PairRelaxation {
 
   /// Did the search for the smaller of two parts, where they are now, find no path? It is run once. False when stopped.
   bool holds(PartId a, PartId b);
-  unsigned depth() const { return depth_; }
 
  private:
   struct Answer {
