@@ -130,13 +130,14 @@ const AttemptResult& Forcing::propose_forced(const Attempt& attempt, const Path&
   NormalizedPath written = normalizer_.normalize(path, answer.attempt.moving);
   if (!written.problem.empty()) throw std::invalid_argument("a forced path is unusable: " + written.problem);
   ForcedRemoval removal{std::move(written.path), {}};
-  std::optional<MotionDepth> deepest = known;
-  if (!deepest || !deepest->proved) {
-    const double share = 0.03;  // a depth that is written with two digits is exact to half of the second one
-    const auto found =
-        depth(moving, answer.attempt.fixed, removal.path, {0.1 * verifier_.options().max_penetration, share}, context);
-    removal.cut.lower_bound = context.should_stop();
-    if (found && (!deepest || found->excess() >= deepest->excess())) deepest = found;
+  // Measured as finely as the verifier does: planners compare motions by depths that are exact to the tolerance only.
+  const double share = 0.01;
+  std::optional<MotionDepth> deepest =
+      depth(moving, answer.attempt.fixed, removal.path, {0.1 * verifier_.options().max_penetration, share}, context);
+  removal.cut.lower_bound = context.should_stop();
+  if (removal.cut.lower_bound && known && (!deepest || known->excess() >= deepest->excess())) {
+    deepest = known;
+    removal.cut.lower_bound = !known->proved;
   }
   removal.cut.deepest = deepest.value_or(MotionDepth{moving.front(), answer.attempt.fixed.front().part});
   const Certificate* proof = proof_for(answer.attempt, removal.cut.deepest, said, context);
