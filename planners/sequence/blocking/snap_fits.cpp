@@ -30,8 +30,21 @@ std::optional<MotionDepth> SnapFits::holding(const GroupState& group, Subassembl
 
 std::optional<MotionDepth> SnapFits::decided(const GroupState& group, SubassemblyId id, unsigned depth) {
   if (has_evidence(group)) return holding(group, id);
-  if ((depth > 0 && depth < params_.snap_depth_of_few) || group.is_pair()) return std::nullopt;
-  return held_by_pairs(group, id);
+  if (depth == 1 || group.is_pair()) return std::nullopt;
+  if (depth == 0 || depth >= params_.snap_depth_of_few) return held_by_pairs(group, id);
+  const std::optional<MotionDepth> own = alone(group, id);
+  if (!own || !relaxation_.holds(own->part, own->other)) return std::nullopt;
+  failed_[id] = std::max(failed_[id], params_.snap_depth_of_few);  // it was searched for, in effect
+  return own;
+}
+
+bool SnapFits::is_held_pair(const GroupState& group, SubassemblyId a, SubassemblyId b) {
+  const auto by = [&](SubassemblyId id, SubassemblyId other) {
+    const std::optional<MotionDepth> snap = alone(group, id);
+    return snap && snap->part == state_.part_of(id) && snap->other == state_.part_of(other);
+  };
+  return state_.is_single(a) && state_.is_single(b) && (by(a, b) || by(b, a)) &&
+         relaxation_.holds(state_.part_of(a), state_.part_of(b));
 }
 
 bool SnapFits::is_free(const GroupState& group, SubassemblyId id) {

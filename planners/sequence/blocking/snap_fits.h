@@ -44,6 +44,8 @@ class SnapFits {
   bool is_snap_fit(const GroupState& group, SubassemblyId id, unsigned depth = 1) {
     return decided(group, id, depth).has_value();
   }
+  /// Two parts that snap, and that no search separates when all others are taken away.
+  bool is_held_pair(const GroupState& group, SubassemblyId a, SubassemblyId b);
   /// As is_snap_fit(): the place where the snap fit cuts in deepest.
   std::optional<MotionDepth> decided(const GroupState& group, SubassemblyId id, unsigned depth);
   /// Are all parts of the group held so, but for one at most? Then it is no puzzle of translations.

@@ -109,8 +109,8 @@ std::optional<Attempt> SimultaneousMotion::attempt_for(const GroupState& group, 
 
 /// As for single parts, a search is repeated when a part that it touched has left; deeper only if several parts moved.
 /// Parts that snap fits hold leave one by one, unless several of them have moved simultaneously: the interference of a
-/// snap fit is measured along straight motions only. Those that are proved to be held do not leave; nor do two, by deep
-/// searches, that do not even separate when all others are taken away.
+/// snap fit is measured along straight motions only. Those that are proved to be held do not leave; nor do two
+/// that do not even separate when all others are taken away: those that snap, and others by deep searches.
 bool SimultaneousMotion::is_worthwhile(const GroupState& group, const Subassemblies& ids, unsigned round) {
   const auto known = last_.find(ids);
   const bool several_moved = known != last_.end() && known->second.several_moved;
@@ -118,7 +118,8 @@ bool SimultaneousMotion::is_worthwhile(const GroupState& group, const Subassembl
         return (!several_moved && snaps_.is_snap_fit(group, s)) || is_held(group, s);
       }))
     return false;
-  if (round == kRounds && ids.size() == 2 && relaxation_.holds(state_.part_of(ids[0]), state_.part_of(ids[1])))
+  if (ids.size() == 2 && (round == kRounds ? relaxation_.holds(state_.part_of(ids[0]), state_.part_of(ids[1]))
+                                           : snaps_.is_held_pair(group, ids[0], ids[1])))
     return false;
   if (known == last_.end()) return true;
   const PastMotion& last = known->second;
