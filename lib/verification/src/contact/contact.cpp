@@ -1,8 +1,8 @@
 #include "dismantle/verification/contact.h"
 
 #include <algorithm>
-#include <limits>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
