@@ -101,8 +101,8 @@ class DISMANTLE_API ForcingOracle {
   /// the groups that are left.
   virtual void prove_left(std::vector<Unsolved>& unsolved, const std::vector<std::vector<PlacedPart>>& groups,
                           const RunContext& context) = 0;
-  /// Answers with a removal along this path, whatever it cuts into, and states depth and reason. `known`: the depth, if
-  /// depth() has measured the whole path of this question. The answer may be recorded like a success.
+  /// Answers with a removal along this path, whatever it cuts into, and states depth and reason. `known`: what is known
+  /// of the depth; stated, as a lower bound, if time runs out. The answer may be recorded like a success.
   virtual const AttemptResult& propose_forced(const Attempt& attempt, const Path& path,
                                               const std::optional<MotionDepth>& known, std::span<const Unsolved> said,
                                               RunContext& context) = 0;

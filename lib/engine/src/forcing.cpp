@@ -135,10 +135,7 @@ const AttemptResult& Forcing::propose_forced(const Attempt& attempt, const Path&
   std::optional<MotionDepth> deepest =
       depth(moving, answer.attempt.fixed, removal.path, {0.1 * verifier_.options().max_penetration, share}, context);
   removal.cut.lower_bound = context.should_stop();
-  if (removal.cut.lower_bound && known && (!deepest || known->excess() >= deepest->excess())) {
-    deepest = known;
-    removal.cut.lower_bound = !known->proved;
-  }
+  if (removal.cut.lower_bound && known && (!deepest || known->excess() >= deepest->excess())) deepest = known;
   removal.cut.deepest = deepest.value_or(MotionDepth{moving.front(), answer.attempt.fixed.front().part});
   const Certificate* proof = proof_for(answer.attempt, removal.cut.deepest, said, context);
   if (proof != nullptr) removal.cut.certificate = std::make_shared<const Certificate>(*proof);
