@@ -242,8 +242,9 @@ struct MotionDepthMeter::Impl {
   }
 
   /// The same outside the region of the initial overlap, where nothing is allowed (law 3 of the verifier). Points enter
-  /// and leave the region, so that their depth at two instants says nothing about those between. The check of the
-  /// verifier proves that nothing is deeper than the deepest point so far, or says when to measure again.
+  /// and leave the region, so that their depth at two instants says nothing about those between. A straight way is
+  /// searched whole, as by pair(). Of others the check of the verifier proves that nothing is deeper than the deepest
+  /// point so far, or says when to measure again.
   bool elsewhere(PartId part, const PairMotion& motion, const PlacedPart& other, const Aabb& region,
                  const MotionDepthOptions& options, const RunContext& context, std::optional<MotionDepth>& worst) {
     if (const auto answer = straight(part, motion, other, options, context, 0, worst, &region)) return *answer;

@@ -253,7 +253,7 @@ class SweptDescent {
     const bool last_is_deeper = seen_last.depth[static_cast<std::size_t>(seen_last.deepest)] >
                                 seen.depth[static_cast<std::size_t>(seen.deepest)];
     const auto ridge = ridge_on(piece.patch, last_is_deeper ? seen_last : seen);
-    // Where the way out changes on the way, a larger part of the surface is settled at once on a short piece of it;
+    // Where the way out changes on the way, a larger part of the surface is settled in one test on a short piece of it;
     // where nothing changes, a smaller one on all of it.
     const double edges = slides(seen, seen_last) ? 64 : ridge ? 2 : 1;
     const double longest = turn ? 0.5 * resolution() : edges * piece.patch.longest_edge();

@@ -165,18 +165,21 @@ CellDecomposition::End CellDecomposition::run(const RunContext& context) {
 /// A part that turns about an axis without end, as a ring does in its groove, is found by a few state checks; growing
 /// the box until it is too large takes seconds.
 bool CellDecomposition::turns_freely(std::size_t checks, const RunContext& context) {
-  const auto turn = [&] { return sampler_.furthest_turn().head<3>().norm(); };
-  if (turn() < kMostTurn / 8) return false;
-  const Vector6 first = sampler_.furthest_turn();
-  const Pose step{first.tail<3>(), rotation_from_vector(first.head<3>())};
-  Pose to = step;
-  for (double at = turn(); at < 1.5 * kMostTurn && turn() > 0.9 * at; at += first.head<3>().norm()) {
-    to = step * to;  // further about the same axis
-    Vector6 pose;
-    pose << rotation_vector(to.q), to.t;
-    sampler_.extend_towards(pose, checks / 4, context);
+  constexpr double kStep = kMostTurn / 8;
+  const auto pose_of = [](const Vector6& x) { return Pose{x.tail<3>(), rotation_from_vector(x.head<3>())}; };
+  const auto furthest = [&]() -> const Vector6& { return sampler_.furthest_turn(); };
+  const double first = furthest().head<3>().norm();
+  if (first < kStep) return false;
+  const Pose step = screw_interpolate(Pose{}, pose_of(furthest()), kStep / first);  // further about the same axis
+  for (double before = 0; furthest().head<3>().norm() > before + 0.5 * kStep;) {
+    before = furthest().head<3>().norm();
+    if (furthest().head<3>().cwiseAbs().maxCoeff() > kMostTurn) return true;
+    const Pose next = step * pose_of(furthest());
+    Vector6 to;
+    to << rotation_vector(next.q), next.t;
+    sampler_.extend_towards(to, checks / 4, context);
   }
-  return sampler_.furthest_turn().head<3>().cwiseAbs().maxCoeff() > kMostTurn;
+  return false;
 }
 
 /// True if the parts are separated, or the volume of their free poses is too large for the divisions.

@@ -107,7 +107,7 @@ struct SnapParameters {
   unsigned snap_failures = 4;  ///< Parts whose deep searches found nothing, before there are no more.
   unsigned snap_depth = 2;     ///< Smallest depth of a search that counts as deep.
   /// Depth to which all parts of a group that are held so were searched for, before there are no more: there need not
-  /// be `snap_failures` of them.
+  /// be `snap_failures` of them. Also the depth of the search for two parts with all others taken away.
   unsigned snap_depth_of_few = 3;
   unsigned snap_directions = 24;  ///< Largest number of directions that are measured for one part.
   std::int64_t snap_poses = 200;  ///< Poses measured for each pair of parts and direction.

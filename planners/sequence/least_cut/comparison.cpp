@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kClearlyLess = 0.95;
-constexpr double kOfResult = 0.01;  // resolution of a depth that is stated, as a share of it
+constexpr double kOfResult = 0.01;  // resolution of the depths that decide, as a share of them
 constexpr double kEqualSums = 1.1;  // of sums up to this factor the number of steps decides
 
 bool cuts_less(const Choice& a, const Choice& b) { return a.excess() < b.excess(); }

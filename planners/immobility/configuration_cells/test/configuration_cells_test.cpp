@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "configuration_cells/cell_decomposition.h"
+#include "configuration_cells/free_space_sampler.h"
+#include "dismantle/geometry/solid.h"
 #include "dismantle/testing/trials.h"
 #include "prover_rig.h"
 
@@ -124,6 +127,29 @@ TEST(ConfigurationCells, ABlockThatSlidesFar) {
     ASSERT_TRUE(found) << i;
     EXPECT_GE(found->shift, slide) << i;
     EXPECT_LT(found->shift, slide + 0.3) << "within the walls";
+  }
+}
+
+// A ring in a groove turns without end: no box holds its poses. That is seen before a cell is divided.
+TEST(ConfigurationCells, APartThatTurnsFreelyIsGivenUpWithoutDivisions) {
+  Rng rng(6);
+  for (int i = 0; i < testing_support::trials(3, 20); ++i) {
+    const Pose world = random_pose(rng, 2);
+    const double play = rng.uniform(0.05, 0.1);
+    Mesh shaft = shapes::tube(0, 1.2, -2, -0.3, 32);
+    append(shaft, shapes::tube(0, 0.8, -0.3, 0.3, 32));
+    append(shaft, shapes::tube(0, 1.2, 0.3, 2, 32));
+    const auto solids = [&](const Mesh& mesh) { return geometry::split_into_solids(moved(mesh, world)); };
+    const auto ring = solids(shapes::tube(0.8 + play, 1.6, play - 0.3, 0.3 - play, 32)), around = solids(shaft);
+    const SampledPair pair(ring, around, 0.5 * kTolerance, ConfigurationCellsParameters{}.sample_spacing * kTolerance);
+    ConfigurationCellsParameters params;
+    params.max_divisions = 1;
+    FreeSpaceSampler sampler(pair, pair.radius(), kTolerance);
+    sampler.explore(static_cast<std::size_t>(params.walk_checks), RunContext{});
+    const RunContext context;
+    ForkJoin fork_join(context);
+    CellDecomposition cells(pair, sampler, params, {2 * pair.radius(), kTolerance}, fork_join);
+    EXPECT_EQ(cells.run(context), CellDecomposition::End::open) << i;
   }
 }
 

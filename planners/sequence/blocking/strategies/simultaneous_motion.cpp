@@ -49,8 +49,9 @@ Result SimultaneousMotion::apply(GroupState& group) {
     const unsigned round = progress.rounds + 1;
     std::vector<Subassemblies> list;
     for (const Subassemblies& set : sets)
-      if (!progress.tried.contains(set) && is_worthwhile(group, set, round) && (round > 1 || set.size() == 2) &&
-          (round < kRounds || list.size() + progress.tried.size() < params_.simultaneous_deep_sets))
+      if (!progress.tried.contains(set) && (round > 1 || set.size() == 2) &&
+          (round < kRounds || list.size() + progress.tried.size() < params_.simultaneous_deep_sets) &&
+          is_worthwhile(group, set, round) && !is_held_pair(group, set, round))
         list.push_back(set);
     for (std::size_t k = 0; k < list.size(); ++k) {
       if (state_.stop() || unsupported_ || !can_afford(group)) return Result::unchanged;
@@ -109,8 +110,7 @@ std::optional<Attempt> SimultaneousMotion::attempt_for(const GroupState& group, 
 
 /// As for single parts, a search is repeated when a part that it touched has left; deeper only if several parts moved.
 /// Parts that snap fits hold leave one by one, unless several of them have moved simultaneously: the interference of a
-/// snap fit is measured along straight motions only. Those that are proved to be held do not leave; nor do two
-/// that do not even separate when all others are taken away: those that snap, and others by deep searches.
+/// snap fit is measured along straight motions only. Those that are proved to be held do not leave.
 bool SimultaneousMotion::is_worthwhile(const GroupState& group, const Subassemblies& ids, unsigned round) {
   const auto known = last_.find(ids);
   const bool several_moved = known != last_.end() && known->second.several_moved;
@@ -118,15 +118,20 @@ bool SimultaneousMotion::is_worthwhile(const GroupState& group, const Subassembl
         return (!several_moved && snaps_.is_snap_fit(group, s)) || is_held(group, s);
       }))
     return false;
-  if (ids.size() == 2 && (round == kRounds ? relaxation_.holds(state_.part_of(ids[0]), state_.part_of(ids[1]))
-                                           : snaps_.is_held_pair(group, ids[0], ids[1])))
-    return false;
   if (known == last_.end()) return true;
   const PastMotion& last = known->second;
   if (std::any_of(last.blocked_by.begin(), last.blocked_by.end(),
                   [&](PartId part) { return !group.contains(state_.subassembly_of(part)); }))
     return true;
   return last.outcome == Outcome::depth_limit && last.depth < depth_of(round) && last.several_moved;
+}
+
+/// Two that do not even separate when all others are taken away: asked of those that snap, and of all before deep
+/// searches. Takes a search, so it is asked last.
+bool SimultaneousMotion::is_held_pair(const GroupState& group, const Subassemblies& ids, unsigned round) {
+  if (ids.size() != 2) return false;
+  return round == kRounds ? relaxation_.holds(state_.part_of(ids[0]), state_.part_of(ids[1]))
+                          : snaps_.is_held_pair(group, ids[0], ids[1]);
 }
 
 /// Is it proved that another part of the group holds it?

@@ -47,6 +47,7 @@ class SimultaneousMotion final : public Strategy {
   unsigned depth_of(unsigned round) const;
   std::optional<Attempt> attempt_for(const GroupState& group, const Subassemblies& ids, unsigned round) const;
   bool is_worthwhile(const GroupState& group, const Subassemblies& ids, unsigned round);
+  bool is_held_pair(const GroupState& group, const Subassemblies& ids, unsigned round);
   bool is_held(const GroupState& group, SubassemblyId id) const;
   bool can_afford(const GroupState& group) const;
   bool move(GroupState& group, const std::vector<Subassemblies>& sets, std::size_t k, unsigned round);

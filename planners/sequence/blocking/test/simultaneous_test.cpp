@@ -138,7 +138,7 @@ TEST(Blocking, SetsThatMoveAtOnceAreFewHoweverManyPartsAreLeft) {
   };
   EXPECT_EQ(sets_asked(), 14u) << "twelve of sixteen a little, two of them more";
   separable = false;
-  EXPECT_EQ(sets_asked(), 12u) << "none more: two that hold each other do not separate by moving at once";
+  EXPECT_EQ(sets_asked(), 12u) << "none more: two that hold each other do not separate by moving simultaneously";
 }
 
 }  // namespace

@@ -122,7 +122,7 @@ Mesh ring(double inner, double outer, double z0, double z1) {
 }
 
 // A wheel on a shaft between a collar, over which it snaps, and a clip in a groove. The clip alone, with the wheel
-// taken away, does not leave the shaft, and the wheel does without the clip: nobody searches deeply for all three.
+// taken away, does not leave the shaft, and the wheel does without the clip: no search among all three is deep.
 TEST(SnapFits, ASearchForThePairDecidesForWhatItHolds) {
   Mesh shaft = shapes::box({-1.1, -1.1, 0}, {1.1, 1.1, 1});
   shaft = shapes::joined(shaft, shapes::box({-1, -1, 1}, {1, 1, 3}));

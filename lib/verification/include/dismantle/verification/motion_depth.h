@@ -21,7 +21,7 @@ class DISMANTLE_API MotionDepthMeter {
   ~MotionDepthMeter();
 
   /// The pair with the largest excess when `moving` follows `path` (columns as `moving`) past `fixed`. Of a motion
-  /// without turns all that the surfaces sweep is searched at once. Else poses are measured: a depth changes by no more
+  /// without turns all that the surfaces sweep is searched as a whole. Else poses are measured: a depth changes by no more
   /// than a point travels, which bounds it between them, and the interval with the highest bound is halved until none
   /// can hold more than was found. Outside the region of an initial overlap (Verifier, law 3) nothing
   /// is allowed: there `allowed` is 0; not looked at when the answer may be off by more than the verifier's tolerance
