@@ -122,6 +122,37 @@ TEST(TriangleBvh, OverlappingFindsEveryTriangleOnce) {
   }
 }
 
+// Planes through corners and along edges included: what they divide is never left out, and little else is found.
+TEST(TriangleBvh, OverlappingAPlaneFindsEveryTriangleThatItDivides) {
+  Rng rng(6);
+  const Mesh mesh = shapes::moved(shapes::refine(shapes::box({-1, -2, -0.5}, {2, 1, 1}), 4), random_pose(rng, 2));
+  const TriangleBvh bvh(mesh);
+  std::size_t met = 0, divided = 0;
+  for (int i = 0; i < 200; ++i) {
+    const std::size_t t = rng.below(mesh.triangles.size());
+    const Vec3 point = mesh.vertex(t, 0);
+    const Vec3 aside = i % 2 == 0 ? Vec3(mesh.vertex(t, 1) - point) : random_vector(rng, -1, 1);
+    const Vec3 normal = aside.cross(random_vector(rng, -1, 1)).normalized();
+    Aabb box;
+    box.extend(point);
+    box.inflate(rng.uniform(0.1, 2));
+    std::set<std::uint32_t> near, found;
+    bvh.overlapping(box, [&](std::uint32_t k) { near.insert(k); });
+    bvh.overlapping(box, point, normal, [&](std::uint32_t k) { EXPECT_TRUE(found.insert(k).second); });
+    for (const std::uint32_t k : found) EXPECT_TRUE(near.contains(k));
+    for (const std::uint32_t k : near) {
+      Vec3 heights;
+      for (int c = 0; c < 3; ++c) heights[c] = normal.dot(mesh.vertex(k, c) - point);
+      if (heights.minCoeff() > 0 || heights.maxCoeff() < 0) continue;
+      EXPECT_TRUE(found.contains(k)) << "plane " << i;
+      ++divided;
+    }
+    met += found.size();
+  }
+  EXPECT_GT(divided, 1000U);
+  EXPECT_LT(met, 3 * divided);
+}
+
 TEST(TriangleBvh, EmptyAndSliverMeshes) {
   const TriangleBvh none{Mesh{}};
   EXPECT_EQ(none.closest(Vec3::Zero()).triangle, 0xffffffffu);

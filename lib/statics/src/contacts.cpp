@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -15,6 +16,7 @@ namespace dismantle::statics {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
+using Corners = std::array<Vec3, 3>;
 
 constexpr double kFacing = 0.94;       // cosine of 20 degrees: facets of two tessellations of one curved surface
 constexpr double kSamePlane = 0.9999;  // cosine of 0.8 degrees
@@ -42,51 +44,67 @@ double perimeter(const Polygon& p) {
   return around;
 }
 
-Aabb box_of(const Polygon& p) {
-  Aabb box;
-  for (const Vec3& v : p) box.extend(v);
-  return box;
-}
-
-/// The common region of two facing triangles, in the middle between them.
-std::optional<Facet> common(const Polygon& a, const Vec3& na, const Polygon& b, const Vec3& nb, double gap) {
-  const Vec3 m = (nb - na).normalized();
-  Polygon region = a;
-  for (std::size_t i = 0; i < 3 && region.size() > 2; ++i) {
-    // Outside of the edge, in the projection along m.
-    const Vec3 out = (b[(i + 1) % 3] - b[i]).cross(m);
-    if (out.norm() == 0) return std::nullopt;
-    region = clip(region, out.normalized(), out.normalized().dot(b[i]));
+/// The common regions of facing triangles, in the middle between them.
+class Clipper {
+ public:
+  std::optional<Facet> common(const Corners& a, const Vec3& na, const Corners& b, const Vec3& nb, double gap) {
+    const Vec3 m = (nb - na).normalized();
+    // The height of a above b along m is linear: (p - b0) . nb / (m . nb).
+    const Vec3 height = nb / m.dot(nb);
+    const double zero = height.dot(b[0]);
+    if (all_of(a, [&](const Vec3& p) { return height.dot(p) - zero > gap; })) return std::nullopt;
+    if (all_of(a, [&](const Vec3& p) { return height.dot(p) - zero < -gap; })) return std::nullopt;
+    Corners out;  // of each edge of b, in the projection along m
+    for (std::size_t i = 0; i < 3; ++i) {
+      out[i] = (b[(i + 1) % 3] - b[i]).cross(m);
+      if (out[i].norm() == 0) return std::nullopt;
+      out[i].normalize();
+      if (all_of(a, [&](const Vec3& p) { return out[i].dot(p) > out[i].dot(b[i]); })) return std::nullopt;
+    }
+    region_.assign(a.begin(), a.end());
+    for (std::size_t i = 0; i < 3; ++i) keep(out[i], out[i].dot(b[i]));
+    keep(height, zero + gap);
+    keep(-height, gap - zero);
+    if (region_.size() < 3) return std::nullopt;
+    const double area = area_of(region_).norm();
+    if (!(area > 0.5 * kStrip * gap * perimeter(region_))) return std::nullopt;
+    for (Vec3& p : region_) p -= 0.5 * (height.dot(p) - zero) * m;
+    return Facet{region_, m, area};
   }
-  // The height of a above b along m is linear: (p - b0) . nb / (m . nb).
-  const Vec3 height = nb / m.dot(nb);
-  const double zero = height.dot(b[0]);
-  region = clip(clip(region, height, zero + gap), -height, gap - zero);
-  if (region.size() < 3) return std::nullopt;
-  const double area = area_of(region).norm();
-  if (!(area > 0.5 * kStrip * gap * perimeter(region))) return std::nullopt;
-  for (Vec3& p : region) p -= 0.5 * (height.dot(p) - zero) * m;
-  return Facet{std::move(region), m, area};
-}
+
+ private:
+  template <class Test>
+  static bool all_of(const Corners& corners, const Test& test) {
+    return std::all_of(corners.begin(), corners.end(), test);
+  }
+
+  void keep(const Vec3& normal, double limit) {
+    clip(region_, normal, limit, kept_);
+    region_.swap(kept_);
+  }
+
+  Polygon region_, kept_;
+};
 
 std::vector<Facet> facets_between(const PlacedShape& a, const PlacedShape& b, double gap) {
   std::vector<Facet> facets;
+  Clipper clipper;
   const Shape::Data &da = a.shape->data(), &db = b.shape->data();
   const Pose to_b = b.pose.inverse() * a.pose;
   Aabb reach = db.mesh.box();
   reach.inflate(gap);
   for (std::uint32_t t = 0; t < da.mesh.triangles.size(); ++t) {
     if (da.normals[t].isZero()) continue;
-    const Polygon ta = {to_b * da.mesh.vertex(t, 0), to_b * da.mesh.vertex(t, 1), to_b * da.mesh.vertex(t, 2)};
-    Aabb box = box_of(ta);
+    const Corners ta = {to_b * da.mesh.vertex(t, 0), to_b * da.mesh.vertex(t, 1), to_b * da.mesh.vertex(t, 2)};
+    Aabb box;
+    for (const Vec3& v : ta) box.extend(v);
     box.inflate(gap);
     if (!box.overlaps(reach)) continue;
     const Vec3 na = to_b.q * da.normals[t];
     db.bvh.overlapping(box, [&](std::uint32_t other) {
       const Vec3& nb = db.normals[other];
       if (!(na.dot(nb) < -kFacing)) return;
-      const auto& c = db.bvh.corners(other);
-      auto facet = common(ta, na, {c[0], c[1], c[2]}, nb, gap);
+      auto facet = clipper.common(ta, na, db.bvh.corners(other), nb, gap);
       if (!facet) return;
       for (Vec3& p : facet->polygon) p = b.pose * p;
       facet->normal = b.pose.q * facet->normal;

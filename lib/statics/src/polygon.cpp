@@ -39,8 +39,8 @@ std::vector<Corner> chain_hull(std::vector<Corner> all, double flat) {
 
 }  // namespace
 
-Polygon clip(const Polygon& polygon, const Vec3& normal, double limit) {
-  Polygon kept;
+void clip(const Polygon& polygon, const Vec3& normal, double limit, Polygon& kept) {
+  kept.clear();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec3& p = polygon[i];
     const Vec3& q = polygon[(i + 1) % polygon.size()];
@@ -48,7 +48,6 @@ Polygon clip(const Polygon& polygon, const Vec3& normal, double limit) {
     if (dp <= 0) kept.push_back(p);
     if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) kept.push_back(p + dp / (dp - dq) * (q - p));
   }
-  return kept;
 }
 
 Vec3 area_of(const Polygon& polygon) {

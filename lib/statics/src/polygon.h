@@ -9,8 +9,8 @@ namespace dismantle::statics {
 
 using Polygon = std::vector<Eigen::Vector3d>;
 
-/// The part of a convex polygon where normal . p <= limit.
-Polygon clip(const Polygon& polygon, const Eigen::Vector3d& normal, double limit);
+/// The part of a convex polygon where normal . p <= limit. `kept` is another polygon, whose memory is used again.
+void clip(const Polygon& polygon, const Eigen::Vector3d& normal, double limit, Polygon& kept);
 /// Area vector of a polygon: its length is the area.
 Eigen::Vector3d area_of(const Polygon& polygon);
 /// Corners of the convex hull of points near a plane with this normal; at most `most`, those that hold most of the

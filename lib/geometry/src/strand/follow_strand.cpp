@@ -7,6 +7,7 @@
 #include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/inner_ball.h"
 #include "dismantle/geometry/mesh_measure.h"
+#include "dismantle/geometry/ray.h"
 #include "dismantle/geometry/strand.h"
 #include "dismantle/geometry/triangle_bvh.h"
 #include "strand/section.h"
@@ -18,9 +19,12 @@ using Vec3 = Eigen::Vector3d;
 using std::numbers::pi;
 
 // Lengths are in units of 4 volume / surface: the thickness of a round strand.
-constexpr double kSlender = 8;  // least length / thickness: shorter bodies are rods
-constexpr double kStep = 0.5;   // distance of cuts / thickness: coils of springs turn by a few degrees in one step
-constexpr int kStarts = 16;     // start points, evenly over the surface; one on the strand suffices
+constexpr double kSlender = 8;     // least length / thickness: shorter bodies are rods
+constexpr double kStep = 0.5;      // distance of cuts / thickness: coils of springs turn by a few degrees in one step
+constexpr int kStarts = 16;        // start points, evenly over the surface; one on the strand suffices
+constexpr double kFlattest = 0.6;  // 4 pi area / outline^2: flatter than a 3:1 rectangle
+constexpr double kLargest = 2.2 * pi / 4;  // area of a section: flat ones and ends of strands change it
+const double kOutline = std::sqrt(4 * pi * kLargest / kFlattest);  // of a section at most
 
 struct Station {
   Section cut;
@@ -57,8 +61,19 @@ class Follower {
   std::optional<Section> cut(const Vec3& point, const Vec3& along) const {
     // Rejects outlines that extend beyond 2.5 thicknesses or are flatter than a 3:1 rectangle.
     auto found = section_around(mesh_, bvh_, point, along, 2.5 * std::max(1.0, thickness_));
-    if (found && 4 * pi * found->area < 0.6 * found->outline * found->outline) found.reset();
+    if (found && 4 * pi * found->area < kFlattest * found->outline * found->outline) found.reset();
     return found;
+  }
+
+  /// True if a section may hold the points on the surface to both sides of a point: its outline passes both, and is
+  /// shorter than twice their distance if not.
+  bool may_be_across(const Vec3& point, const Vec3& direction) const {
+    double across = 0;
+    for (const Vec3& side : {direction, Vec3(-direction)}) {
+      across += first_hit(bvh_, point, side, kOutline / 2, [](std::uint32_t) { return true; });
+      if (across > (0.5 + 1e-6) * kOutline) return false;
+    }
+    return true;
   }
 
   /// The smallest cut through a point among planes that contain the normal there; then a cut perpendicular to the
@@ -66,14 +81,16 @@ class Follower {
   std::optional<Station> first_cut(const Vec3& point, const Vec3& normal) const {
     const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
     std::optional<Station> best;
+    if (!may_be_across(point, normal)) return std::nullopt;  // the normal is in all these planes
     for (int k = 0; k < 24; ++k) {
       const double angle = pi * k / 24;
       const Vec3 along = std::cos(angle) * u + std::sin(angle) * v;
+      if (!may_be_across(point, along.cross(normal))) continue;
       auto found = cut(point, along);
       if (found && (!best || found->area < best->cut.area)) best = Station{std::move(*found), along};
     }
-    // A round strand has the area of a circle of diameter 1; flat sections and strand ends change that ratio.
-    if (!best || best->cut.area < 0.6 * pi / 4 || best->cut.area > 2.2 * pi / 4) return std::nullopt;
+    // A round strand has the area of a circle of diameter 1.
+    if (!best || best->cut.area < 0.6 * pi / 4 || best->cut.area > kLargest) return std::nullopt;
     const double step = kStep * std::sqrt(4 * best->cut.area / pi);
     const auto on = cut(best->cut.center + step * best->along, best->along);
     const auto back = cut(best->cut.center - step * best->along, best->along);

@@ -29,7 +29,7 @@ std::map<Edge, Crossing> crossings(const Mesh& mesh, const TriangleBvh& bvh, con
   Aabb box;
   box.extend(point);
   box.inflate(reach);
-  bvh.overlapping(box, [&](std::uint32_t t) {
+  bvh.overlapping(box, point, normal, [&](std::uint32_t t) {
     const Triangle& v = mesh.triangles[t];
     std::array<double, 3> height;
     for (std::size_t k = 0; k < 3; ++k) height[k] = normal.dot(mesh.vertices[v[k]] - point);

@@ -59,12 +59,18 @@ class DISMANTLE_API TriangleBvh {
   double signed_distance(const Eigen::Vector3d& p) const;
   /// Calls f(triangle) for each triangle whose box overlaps `box`.
   void overlapping(const Aabb& box, const std::function<void(std::uint32_t)>& f) const;
+  /// The same for those triangles whose box also meets the plane through `point` with the unit vector `normal`.
+  void overlapping(const Aabb& box, const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
+                   const std::function<void(std::uint32_t)>& f) const;
 
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::vector<std::uint32_t>& order() const { return order_; }  ///< triangle ids, leaves contiguous
   const std::array<Eigen::Vector3d, 3>& corners(std::uint32_t triangle) const { return corners_[triangle]; }
 
  private:
+  /// Each side of a split keeps at least an eighth of the triangles, so 2^32 of them make less than 180 levels.
+  static constexpr std::size_t kStackSize = 192;
+
   void build(std::uint32_t first, std::uint32_t count, std::vector<Aabb>& boxes, const geometry::Poll& poll);
   /// The triangles of a node, seen from far away.
   struct Dipole {
@@ -72,6 +78,8 @@ class DISMANTLE_API TriangleBvh {
     double reach = 0;              // largest distance of their corners from the centre
   };
   void sum_up(std::uint32_t node);
+  template <class Meets>
+  void visit(const Meets& meets, const std::function<void(std::uint32_t)>& f) const;
 
   std::vector<std::array<Eigen::Vector3d, 3>> corners_;  // by triangle id
   std::vector<std::uint32_t> order_;
