@@ -5,10 +5,12 @@
 namespace dismantle::geometry {
 
 void RowRuns::add(std::size_t row, std::int32_t first, std::int32_t last, const Bits& bits) {
+  add_to(in_row_[row], bits);
   std::vector<Added>& list = added_[row];
   if (!list.empty()) {  // neighbouring triangles often continue each other
     Added& before = list.back();
-    if (before.bits == bits && first <= before.last + 1 && last >= before.first - 1) {
+    if (before.bits[0] == bits[0] && before.bits[1] == bits[1] && first <= before.last + 1 &&
+        last >= before.first - 1) {
       before.first = std::min(before.first, first);
       before.last = std::max(before.last, last);
       return;

@@ -13,6 +13,7 @@
 #include "dismantle/geometry/patch.h"
 #include "dismantle/geometry/relative_motion.h"
 #include "dismantle/geometry/solid.h"
+#include "dismantle/geometry/unrolled_mesh.h"
 #include "dismantle/geometry/walls.h"
 #include "dismantle/geometry/winding.h"
 #include "dismantle/run_context.h"
@@ -108,6 +109,10 @@ class DirectedCheck {
     double s0, s1;
   };
   using List = std::vector<std::uint32_t>;
+  struct Stretch {  // of a winding: instants, and the patches that are not certified between them
+    std::size_t from, to;
+    List list;
+  };
 
   Interval interval(double s0, double s1) const;
   double middle(const Interval& i) const;
@@ -118,7 +123,10 @@ class DirectedCheck {
   bool wind(const Winding& winding);
   bool wind(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to, List list);
   bool clear_unrolled(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to, List& list);
-  UnrolledMesh unrolled(const Winding& winding, const List& list, double cell) const;
+  bool wind_in_cells(const Winding& winding, double cell, Stretch stretch);
+  bool halve(const UnrolledMesh& other, const Winding& winding, Stretch whole, std::size_t before,
+             std::vector<Stretch>& rest);
+  UnrolledMesh unrolled(const Winding& winding, const Stretch& stretch, double cell) const;
   bool process(const Interval& i, List list, bool vertex_rule);
   bool settle_all(const Interval& i, List list, bool vertex_rule, List& later);
   bool settle_in_turn(const Interval& i, List list, bool vertex_rule, List& later);

@@ -14,13 +14,22 @@ namespace dismantle::geometry {
 class RowRuns {
  public:
   using Bits = std::array<std::uint64_t, 2>;  ///< a set; element k is bit k % 64 of word k / 64
+  static bool none(const Bits& x, const Bits& y) { return ((x[0] & y[0]) | (x[1] & y[1])) == 0; }
+  static void add_to(Bits& x, const Bits& y) {
+    x[0] |= y[0];
+    x[1] |= y[1];
+  }
+
   RowRuns() = default;
-  explicit RowRuns(std::size_t rows) : added_(rows) {}
+  explicit RowRuns(std::size_t rows) : added_(rows), in_row_(rows) {}
 
   /// Adds `bits` to the cells `first` to `last` of a row.
   void add(std::size_t row, std::int32_t first, std::int32_t last, const Bits& bits);
   /// To be called once, after the last add().
   void finish();
+
+  /// Union of the sets of a row.
+  const Bits& in_row(std::size_t row) const { return in_row_[row]; }
 
   /// Calls f(bits) for the runs of different sets that overlap the cells `first` to `last`, in order. False as soon as
   /// f returns false.
@@ -49,6 +58,7 @@ class RowRuns {
   std::vector<std::vector<Added>> added_;  // by row; empty when finished
   std::vector<Run> runs_;                  // row by row, ascending
   std::vector<std::size_t> begin_;         // by row, and the end
+  std::vector<Bits> in_row_;
 };
 
 }  // namespace dismantle::geometry

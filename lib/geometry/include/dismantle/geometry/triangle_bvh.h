@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "dismantle/export.h"
 #include "dismantle/aabb.h"
+#include "dismantle/export.h"
 #include "dismantle/geometry/poll.h"
 #include "dismantle/mesh.h"
 
@@ -49,8 +49,7 @@ class DISMANTLE_API TriangleBvh {
   /// Copies the data it needs.
   explicit TriangleBvh(const Mesh& mesh, const geometry::Poll& poll = {}, Surface surface = Surface::closed);
 
-  ClosestPoint closest(const Eigen::Vector3d& p,
-                       double limit = std::numeric_limits<double>::infinity()) const;
+  ClosestPoint closest(const Eigen::Vector3d& p, double limit = std::numeric_limits<double>::infinity()) const;
   int winding_number(const Eigen::Vector3d& p) const;  ///< for closed surfaces
   /// The solid angle of the surface seen from p, as a share of the whole sphere; approximate. For open surfaces.
   double generalised_winding_number(const Eigen::Vector3d& p) const;

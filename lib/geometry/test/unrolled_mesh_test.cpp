@@ -1,6 +1,6 @@
 // Triangles that are proved clear along many turns of a screw do not meet the other mesh; runs of cells hold what was
 // added.
-#include "dismantle/geometry/winding.h"
+#include "dismantle/geometry/unrolled_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -83,9 +83,7 @@ TEST(UnrolledMesh, WhatIsProvedToPassDoesNotHit) {
     const double start = 2 * M_PI * rng.uniform();
     const Vector3d middle(radius * std::cos(start), radius * std::sin(start), 0.3 * rng.normal());
     for (Vector3d& corner : t) corner = middle + 0.1 * Vector3d(rng.normal(), rng.normal(), rng.normal());
-    Ring ring;
-    ring.add(w, t);
-    const UnrolledMesh mesh(block, w, ring, 0.002);
+    const UnrolledMesh mesh(block, w, {&t, 1}, w.begin, w.end, 0.002);
     std::uint64_t work = 0;
     const bool clear = mesh.clear_of(t, w.begin, w.end, work);
     bool inside = false;
