@@ -333,13 +333,15 @@ bool Verifier::passes(PartId moving, PartId fixed, const Pose& fixed_at, const s
   const geometry::SweptBoxes a(path, impl_->bodies.at(moving).box), b({fixed_at}, impl_->bodies.at(fixed).box);
   if (!a.meets(b, 0)) return true;
   const verify::Limits limits{impl_->overlap(moving, fixed), impl_->options.max_penetration};
+  const auto& [x, y] = std::tie(impl_->bodies[moving].solids, impl_->bodies[fixed].solids);
   const auto keeps_to = [&](const verify::Limits& to) {
-    return verify::passes(impl_->bodies[moving].solids, path, impl_->bodies[fixed].solids, fixed_at, to,
-                          impl_->budget_for(path.size() - 1, false, false, nullptr));
+    return verify::passes(x, path, y, fixed_at, to, impl_->budget_for(path.size() - 1, false, false, nullptr));
   };
   const Aabb* where = impl_->region(moving, fixed);
-  const double tolerance = impl_->options.max_penetration;
-  return keeps_to(limits) && (where == nullptr || keeps_to({0, tolerance, where, tolerance}));
+  if (where == nullptr) return keeps_to(limits);
+  // An overlap as deep as half a wall allows all depths in the wall; outside the region a few samples tell.
+  const verify::Limits elsewhere{0, impl_->options.max_penetration, where, impl_->options.max_penetration};
+  return !verify::refuted_by_samples(x, path, y, fixed_at, elsewhere) && keeps_to(limits) && keeps_to(elsewhere);
 }
 
 verify::HullsApart Verifier::Impl::hulls_of(const std::vector<PlacedPart>& group,

@@ -103,35 +103,62 @@ Finding check_pair(const Solid& a, const Solid& b, const RelativeMotion& forward
   return swap ? two : second_of_pair(two);
 }
 
-bool passes(const std::vector<Solid>& a, const std::vector<Pose>& poses_a, const std::vector<Solid>& b,
-            const Pose& pose_b, const Limits& limits, const Budget& per_pair) {
+namespace {
+
+/// Motions of the solids of one part past those of a part at rest.
+struct SolidPair {
+  const Solid &a, &b;
+  RelativeMotion forward, backward;
+};
+
+/// Calls use(pair) for the solids that come near each other, until it returns false; then returns false.
+template <class Use>
+bool each_near(const std::vector<Solid>& a, const std::vector<Pose>& poses_a, const std::vector<Solid>& b,
+               const Pose& pose_b, double grown, const Use& use) {
+  const auto box_of = [&](const Solid& s) {
+    Aabb box = s.box;
+    box.inflate(grown);
+    return box;
+  };
   for (const Solid& x : a)
     for (const Solid& y : b) {
       std::vector<Pose> path;
       for (const Pose& p : poses_a) path.push_back(p * x.frame);
       const std::vector<Pose> rest{pose_b * y.frame};
-      Aabb grown = x.box;
-      grown.inflate(limits.most());
-      const RelativeMotion forward(path, rest, grown);
+      const RelativeMotion forward(path, rest, box_of(x));
       if (!forward.swept_box().overlaps(y.box)) continue;
-      grown = y.box;
-      grown.inflate(limits.most());
-      const RelativeMotion backward(rest, path, grown);
-      // A few samples reject most bad motions, and few tests certify most good ones. The other samples cost little
-      // compared with a failed proof.
-      if (sample_beyond(x, y, forward, backward, limits, SampledTimes::some)) return false;
-      Budget budget = per_pair;
-      budget.tests_left = static_cast<std::uint64_t>(kQuickShare * static_cast<double>(per_pair.tests_left));
-      budget.patches_left = static_cast<std::uint64_t>(kQuickShare * static_cast<double>(per_pair.patches_left));
-      Answer answer = check_pair(x, y, forward, backward, limits, budget).answer;
-      if (answer == Answer::exhausted) {
-        if (sample_beyond(x, y, forward, backward, limits, SampledTimes::others)) return false;
-        budget = per_pair;
-        answer = check_pair(x, y, forward, backward, limits, budget).answer;
-      }
-      if (answer != Answer::certified) return false;
+      if (!use(SolidPair{x, y, forward, RelativeMotion(rest, path, box_of(y))})) return false;
     }
   return true;
+}
+
+}  // namespace
+
+bool refuted_by_samples(const std::vector<Solid>& a, const std::vector<Pose>& poses_a, const std::vector<Solid>& b,
+                        const Pose& pose_b, const Limits& limits) {
+  return !each_near(a, poses_a, b, pose_b, limits.most(), [&](const SolidPair& pair) {
+    return !sample_beyond(pair.a, pair.b, pair.forward, pair.backward, limits);
+  });
+}
+
+bool passes(const std::vector<Solid>& a, const std::vector<Pose>& poses_a, const std::vector<Solid>& b,
+            const Pose& pose_b, const Limits& limits, const Budget& per_pair) {
+  return each_near(a, poses_a, b, pose_b, limits.most(), [&](const SolidPair& pair) {
+    const auto& [x, y, forward, backward] = pair;
+    // A few samples reject most bad motions, and few tests certify most good ones. The other samples cost little
+    // compared with a failed proof.
+    if (sample_beyond(x, y, forward, backward, limits, SampledTimes::some)) return false;
+    Budget budget = per_pair;
+    budget.tests_left = static_cast<std::uint64_t>(kQuickShare * static_cast<double>(per_pair.tests_left));
+    budget.patches_left = static_cast<std::uint64_t>(kQuickShare * static_cast<double>(per_pair.patches_left));
+    Answer answer = check_pair(x, y, forward, backward, limits, budget).answer;
+    if (answer == Answer::exhausted) {
+      if (sample_beyond(x, y, forward, backward, limits, SampledTimes::others)) return false;
+      budget = per_pair;
+      answer = check_pair(x, y, forward, backward, limits, budget).answer;
+    }
+    return answer == Answer::certified;
+  });
 }
 
 }  // namespace dismantle::geometry
