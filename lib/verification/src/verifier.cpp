@@ -10,6 +10,7 @@
 #include "dismantle/geometry/hull.h"
 #include "dismantle/geometry/motion_samples.h"
 #include "dismantle/geometry/numerics.h"
+#include "dismantle/geometry/overlap_region.h"
 #include "dismantle/geometry/pair_check.h"
 #include "dismantle/stop_if_asked.h"
 #include "solid_motion.h"
@@ -56,14 +57,9 @@ Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, const RunContext& conte
     if (divisor == 10) worthwhile = rungs.size();
     rungs.push_back(options.max_penetration / divisor);
   }
-  for (const InitialOverlap& overlap : assembly_overlaps) {
-    const double depth = overlap.allowed();
-    if (overlap.declared || !overlap.place || !(depth > 10 * options.max_penetration)) continue;  // law 3
-    if (a.parts[overlap.a].open || a.parts[overlap.b].open) continue;
-    Aabb box = overlap.place->region;
-    box.inflate(depth + options.max_penetration);
-    regions.push_back({overlap.a, overlap.b, box});
-  }
+  for (const InitialOverlap& overlap : assembly_overlaps)
+    if (const auto box = geometry::overlap_region(a, overlap, options.max_penetration))
+      regions.push_back({overlap.a, overlap.b, *box});
   for (const auto& part : a.parts) meshes.push_back(part.mesh);
   const auto poll = [&] { stop_if_asked(context, "setting up the verifier"); };
   parallel_for(

@@ -1,5 +1,6 @@
 #include "blocking_graph/pair_sweep.h"
 
+#include "dismantle/geometry/overlap_region.h"
 #include "dismantle/geometry/pair_check.h"
 #include "dismantle/geometry/part_data.h"
 
@@ -13,6 +14,9 @@ PairSweep::PairSweep(const Assembly& assembly, PathOracle& oracle)
       shapes_(geometry::find_congruent(assembly.parts, 1e-4 * tolerance_)),
       hulls_(assembly.parts.size()) {
   for (const Part& part : assembly.parts) boxes_.push_back(part.mesh->box());
+  for (const InitialOverlap& overlap : assembly.overlaps)
+    if (const auto region = geometry::overlap_region(assembly, overlap, tolerance_))
+      regions_.emplace(std::pair(overlap.a, overlap.b), *region);
 }
 
 const std::vector<geometry::Solid>& PairSweep::solids(PartId part) const {
@@ -34,6 +38,13 @@ bool PairSweep::passes(PartId moving, PartId fixed, const Pose& fixed_at, const 
   if (!swept(boxes_[moving], path).overlaps(swept(boxes_[fixed], {fixed_at}))) return true;
   const geometry::Limits limits{overlap, tolerance_};
   return geometry::passes(solids(moving), path, solids(fixed), fixed_at, limits);
+}
+
+bool PairSweep::leaves_region(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& path) const {
+  const auto region = regions_.find(std::minmax(moving, fixed));
+  if (region == regions_.end()) return false;
+  const geometry::Limits elsewhere{0, tolerance_, &region->second, tolerance_};
+  return geometry::refuted_by_samples(solids(moving), path, solids(fixed), fixed_at, elsewhere);
 }
 
 std::vector<geometry::PlacedHull> PairSweep::hulls(const std::vector<PlacedPart>& parts) const {

@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <atomic>
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "dismantle/geometry/congruent_parts.h"
@@ -25,10 +27,14 @@ class PairSweep {
   /// Does `moving` pass `fixed` along `path` (>= 2 poses, joined by screw motions)? False: it does not, or the budget
   /// did not suffice for a proof.
   bool passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& path) const {
-    return passes(moving, fixed, fixed_at, path, assembly_.initial_overlap(moving, fixed));
+    return !leaves_region(moving, fixed, fixed_at, path) &&
+           passes(moving, fixed, fixed_at, path, assembly_.initial_overlap(moving, fixed));
   }
   /// The same for two parts that may cut into each other by `overlap`, as two others of these shapes do when assembled.
   bool passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& path, double overlap) const;
+  /// True if samples show that one cuts into the other outside the region in which they overlap when assembled. An
+  /// overlap as deep as half a wall allows all depths in the wall, so only its region tells.
+  bool leaves_region(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& path) const;
   double overlap(PartId a, PartId b) const { return assembly_.initial_overlap(a, b); }
   /// The part as a copy of the first one of its shape, to within a ten-thousandth of the tolerance.
   const geometry::ShapePlacement& shape(PartId part) const { return shapes_[part]; }
@@ -50,6 +56,7 @@ class PairSweep {
   double tolerance_;
   std::unique_ptr<PartMemo> own_;  // if the oracle shares none
   PartMemo& memo_;
+  std::map<std::pair<PartId, PartId>, Aabb> regions_;                            // geometry::overlap_region(); a < b
   std::vector<Aabb> boxes_;                                                      // by part
   std::vector<geometry::ShapePlacement> shapes_;                                 // by part
   mutable std::vector<std::atomic<const std::vector<Eigen::Vector3d>*>> hulls_;  // by part, those that were asked for

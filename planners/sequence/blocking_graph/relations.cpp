@@ -160,6 +160,9 @@ Relations::Ahead::Request Relations::request(const ShapeQuestion& q) const {
                           .normalized();
             Pose end = begin;
             end.t += real(q.length, grid_) * along.normalized();
+            // Of two others of these shapes the region is not known, unless these lie as they do.
+            const bool as_assembled = begin.t.isZero(0) && begin.q.vec().isZero(0);
+            if (as_assembled && sweep_.leaves_region(q.moving, q.fixed, Pose{}, {begin, end})) return true;
             return !sweep_.passes(q.moving, q.fixed, Pose{}, {begin, end}, q.overlap);
           }};
 }

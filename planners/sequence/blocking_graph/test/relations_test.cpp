@@ -148,5 +148,40 @@ TEST(Relations, OfEqualPartsAreThoseOfThePartsThemselves) {
   EXPECT_LT(blocked, compared);
 }
 
+/// A pin is stuck deep in the boss of a plate: that depth is allowed everywhere in the plate, since it is thinner, but
+/// only where the pin is. On its way out the arm of the pin would cut through the plate beside the boss.
+TEST(Relations, DeepOverlapsAreAllowedWhereTheyAreWhenAssembled) {
+  Rng rng(12);
+  for (int trial = 0; trial < 20; ++trial) {
+    const double plate = rng.uniform(0.3, 0.6), deep = rng.uniform(0.45, 0.6), width = rng.uniform(0.2, 0.4);
+    const double x = rng.uniform(-2, 2), y = rng.uniform(-2, 2), arm = rng.uniform(1, 2);
+    Assembly assembly =
+        fake::assembly_of({{"plate", {{{-6, -6, 0}, {6, 6, plate}}, {{x - 1, y - 1, 0}, {x + 1, y + 1, 3}}}},
+                           {"pin",
+                            {{{x - width, y - width, -2}, {x + width, y + width, deep}},
+                             {{x + 1.2, y, 4}, {x + 1.2 + arm, y + 1, 4.5}}}}});
+    InitialOverlap overlap{0, 1, deep, OverlapPlace{}};
+    overlap.place->region.extend(Eigen::Vector3d(x - width, y - width, 0));
+    overlap.place->region.extend(Eigen::Vector3d(x + width, y + width, deep));
+    assembly.overlaps = {overlap};
+    TolerantOracle oracle;
+    const PairSweep sweep(assembly, oracle);
+    const Directions directions = directions_of(assembly);
+    const Orientations orientations;
+    Relations relations(sweep, directions, orientations, nullptr);
+    for (std::size_t d = 0; d < directions.all.size(); ++d) {
+      const double up = directions.all[d].z();
+      if (std::abs(up) < 0.99) continue;
+      const bool blocked = relations.blocks({1, 0, d, Eigen::Vector3d::Zero(), 0, 0});
+      EXPECT_TRUE(blocked) << trial << ", " << up;
+      EXPECT_EQ(relations.blocks({0, 1, Directions::opposite(d), Eigen::Vector3d::Zero(), 0, 0}), blocked) << trial;
+    }
+    const std::vector<Pose> out{Pose{}, Pose{{0, 0, -8}, Eigen::Quaterniond::Identity()}};
+    EXPECT_TRUE(sweep.leaves_region(1, 0, Pose{}, out));
+    EXPECT_FALSE(sweep.passes(1, 0, Pose{}, out));
+    EXPECT_TRUE(sweep.passes(1, 0, Pose{}, out, deep)) << "without the region this shows nothing";
+  }
+}
+
 }  // namespace
 }  // namespace dismantle::blocking
