@@ -44,7 +44,8 @@ struct Ring {
 
 /// Cells of r, in rows, and of psi reduced to [0, lead), in columns.
 struct UnrolledRaster {
-  struct Turns {  // numbers of full turns
+  /// Numbers of full turns.
+  struct Turns {
     long first, last;
     bool operator==(const Turns&) const = default;
   };
