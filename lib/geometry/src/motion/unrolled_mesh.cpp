@@ -85,7 +85,7 @@ void Ring::add(const Winding& winding, const Corners& t, std::size_t from, std::
   const Unrolled u = unroll(winding, t, winding.off);
   r_lo = std::min(r_lo, u.r_lo);
   r_hi = std::max(r_hi, u.r_hi);
-  const double pitch = std::abs(winding.pitch);
+  const double pitch = std::abs(winding.pitch);  // up is the direction of the advance
   z_lo = std::min(z_lo, u.z_lo + pitch * winding.turned_at(from) - winding.rounding);
   z_hi = std::max(z_hi, u.z_hi + pitch * winding.turned_at(to) + winding.rounding);
 }
@@ -242,7 +242,7 @@ UnrolledMesh::Bits UnrolledMesh::bits_of_bent(const Unrolled& u, double from, do
 /// Marks what a triangle sweeps.
 void UnrolledMesh::ask(const Corners& t, double from, double to, int depth) {
   const Unrolled u = unroll(winding_, t, winding_.off);
-  if (!near(u)) return;
+  if (!near(u, from, to)) return;
   if (depth > 0 && (u.bent || u.below > wide_.cell)) {
     for (const Corners& q : quarters(t)) ask(q, from, to, depth - 1);
     return;
@@ -284,9 +284,7 @@ void UnrolledMesh::enter(const Corners& t, int depth) {
   if (u.bent) {
     const Bits b = bits_of_bent(u, 0, 0);
     const auto [row0, row1] = fine_.rows_of(u.r_lo, u.r_hi);
-    for (long row = row0; row <= row1; ++row) {
-      RowRuns::add_to(by_bent_[static_cast<std::size_t>(row)], b);
-    }
+    for (long row = row0; row <= row1; ++row) RowRuns::add_to(by_bent_[static_cast<std::size_t>(row)], b);
     return;
   }
   // What is asked in the row, for any psi.
@@ -312,7 +310,7 @@ bool UnrolledMesh::none_in(long row, const Bits& bits) const {
 bool UnrolledMesh::free(const Corners& t, double from, double to, int depth, std::uint64_t& cells) const {
   const Unrolled u = unroll(winding_, t, winding_.off);
   ++cells;
-  if (!near(u)) return true;
+  if (!near(u, from, to)) return true;
   // For any psi: is the mesh at these radii and heights at all?
   const Bits any = bits_of_bent(u, from, to);
   const auto [row0, row1] = fine_.rows_of(u.r_lo, u.r_hi);

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
@@ -90,10 +91,15 @@ class UnrolledMesh {
   bool none_in(long row, const Bits& bits) const;
   Bits bits(double lo, double hi) const;
   Bits bits_of_bent(const Unrolled& u, double from, double to) const;
-  bool near(const Unrolled& u) const {
-    return u.r_hi >= ring_.r_lo && u.r_lo <= ring_.r_hi && u.z_hi >= ring_.z_lo && u.z_lo <= ring_.z_hi;
+  /// A triangle at rest, and one that moves while the winding has turned from `from` to `to`, rad.
+  bool near(const Unrolled& u) const { return near(u, 0, 0); }
+  bool near(const Unrolled& u, double from, double to) const {
+    const double pitch = lead_ / kTurn;
+    return u.r_hi >= ring_.r_lo && u.r_lo <= ring_.r_hi && u.z_hi + pitch * to + winding_.rounding >= ring_.z_lo &&
+           u.z_lo + pitch * from - winding_.rounding <= ring_.z_hi;
   }
 
+  static constexpr double kTurn = 2 * std::numbers::pi;
   const Winding& winding_;
   Ring ring_;
   double lead_;  // >= 0
