@@ -63,6 +63,33 @@ RelativeMotion turns(double pitch, std::size_t segments) {
   return {poses, {Pose{}}, box};
 }
 
+struct Sides {
+  bool inside = false, outside = false;
+};
+
+/// On which sides of a mesh sampled points of a triangle are while it moves from instant `begin` to `end`.
+Sides sampled(const TriangleBvh& mesh, const RelativeMotion& motion, const Corners& t, std::size_t begin,
+              std::size_t end, int times) {
+  constexpr int kGrid = 4;
+  Sides seen;
+  for (int k = 0; k <= times && !(seen.inside && seen.outside); ++k) {
+    const Pose at = motion.at(static_cast<double>(begin) + static_cast<double>(end - begin) * k / times);
+    for (int i = 0; i <= kGrid; ++i)
+      for (int j = 0; i + j <= kGrid; ++j) {
+        const Vector3d p = t[0] + (i * (t[1] - t[0]) + j * (t[2] - t[0])) / kGrid;
+        (mesh.inside(at * p) ? seen.inside : seen.outside) = true;
+      }
+  }
+  return seen;
+}
+
+/// A small triangle around a point.
+Corners triangle_at(const Vector3d& middle, Rng& rng) {
+  Corners t;
+  for (Vector3d& corner : t) corner = middle + 0.1 * Vector3d(rng.normal(), rng.normal(), rng.normal());
+  return t;
+}
+
 /// A small block in the way of small triangles at about the same distance from the axis. Of those that are proved to
 /// pass it, no sampled point is ever in it; of those that hit it by sampling, none is proved. Most that pass are
 /// proved.
@@ -79,20 +106,13 @@ TEST(UnrolledMesh, WhatIsProvedToPassDoesNotHit) {
     const Vector3d place(radius * std::cos(angle), radius * std::sin(angle), pitch * 6 * M_PI * rng.uniform());
     const Vector3d half = (0.02 + 0.1 * rng.uniform()) * Vector3d::Ones();
     const TriangleBvh block(shapes::box(place - half, place + half));
-    Corners t;
     const double start = 2 * M_PI * rng.uniform();
     const Vector3d middle(radius * std::cos(start), radius * std::sin(start), 0.3 * rng.normal());
-    for (Vector3d& corner : t) corner = middle + 0.1 * Vector3d(rng.normal(), rng.normal(), rng.normal());
+    const Corners t = triangle_at(middle, rng);
     const UnrolledMesh mesh(block, w, {&t, 1}, w.begin, w.end, 0.002);
     std::uint64_t work = 0;
     const bool clear = mesh.clear_of(t, w.begin, w.end, work);
-    bool inside = false;
-    for (int k = 0; k <= 4000 && !inside; ++k) {
-      const Pose at = motion.at(static_cast<double>(motion.segments()) * k / 4000);
-      for (int i = 0; i <= 4; ++i)
-        for (int j = 0; i + j <= 4; ++j)
-          inside |= block.inside(at * (t[0] + i / 4.0 * (t[1] - t[0]) + j / 4.0 * (t[2] - t[0])));
-    }
+    const bool inside = sampled(block, motion, t, w.begin, w.end, 4000).inside;
     hit += inside;
     passed += !inside;
     proved += clear;
@@ -120,8 +140,7 @@ TEST(UnrolledMesh, HoldsWhatAnyOfTheTrianglesAskedMayMeet) {
     std::vector<Corners> asked(1 + rng.below(rng.below(2) == 0 ? 2 : 20));
     for (Corners& t : asked) {
       const double radius = rng.uniform(0.8, 2.2), angle = rng.uniform(0, 6);
-      const Vector3d middle(radius * std::cos(angle), radius * std::sin(angle), rng.uniform(-1, 1));
-      for (Vector3d& corner : t) corner = middle + 0.1 * Vector3d(rng.normal(), rng.normal(), rng.normal());
+      t = triangle_at({radius * std::cos(angle), radius * std::sin(angle), rng.uniform(-1, 1)}, rng);
     }
     const std::size_t from = rng.below(40), to = from + 2 + rng.below(59 - from);
     const UnrolledMesh mesh(bvh, w, asked, from, to, 0.004);
@@ -129,14 +148,8 @@ TEST(UnrolledMesh, HoldsWhatAnyOfTheTrianglesAskedMayMeet) {
       std::uint64_t work = 0;
       const std::size_t begin = from + rng.below(to - from), end = rng.below(2) == 0 ? to : begin + 1;
       const bool clear = mesh.clear_of(t, begin, end, work);
-      bool inside = false, outside = false;  // both: it meets the surface between
-      for (int k = 0; k <= 600 && !(inside && outside); ++k) {
-        const Pose at = motion.at(static_cast<double>(begin) + static_cast<double>(end - begin) * k / 600);
-        for (int i = 0; i <= 3; ++i)
-          for (int j = 0; i + j <= 3; ++j)
-            (bvh.inside(at * (t[0] + i / 3.0 * (t[1] - t[0]) + j / 3.0 * (t[2] - t[0]))) ? inside : outside) = true;
-      }
-      const bool meets = inside && outside;
+      const Sides seen = sampled(bvh, motion, t, begin, end, 600);
+      const bool meets = seen.inside && seen.outside;  // it goes through the surface
       hit += meets;
       passed += !meets;
       proved += clear;

@@ -329,7 +329,7 @@ bool Verifier::passes(PartId moving, PartId fixed, const Pose& fixed_at, const s
   const geometry::SweptBoxes a(path, impl_->bodies.at(moving).box), b({fixed_at}, impl_->bodies.at(fixed).box);
   if (!a.meets(b, 0)) return true;
   const verify::Limits limits{impl_->overlap(moving, fixed), impl_->options.max_penetration};
-  const auto& [x, y] = std::tie(impl_->bodies[moving].solids, impl_->bodies[fixed].solids);
+  const std::vector<verify::Solid>&x = impl_->bodies[moving].solids, &y = impl_->bodies[fixed].solids;
   const auto keeps_to = [&](const verify::Limits& to) {
     return verify::passes(x, path, y, fixed_at, to, impl_->budget_for(path.size() - 1, false, false, nullptr));
   };

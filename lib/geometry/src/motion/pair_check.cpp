@@ -1,6 +1,7 @@
 #include "dismantle/geometry/pair_check.h"
 
 #include <optional>
+#include <utility>
 
 #include "dismantle/executor.h"
 #include "dismantle/geometry/motion_samples.h"
@@ -125,9 +126,9 @@ bool each_near(const std::vector<Solid>& a, const std::vector<Pose>& poses_a, co
       std::vector<Pose> path;
       for (const Pose& p : poses_a) path.push_back(p * x.frame);
       const std::vector<Pose> rest{pose_b * y.frame};
-      const RelativeMotion forward(path, rest, box_of(x));
+      RelativeMotion forward(path, rest, box_of(x));
       if (!forward.swept_box().overlaps(y.box)) continue;
-      if (!use(SolidPair{x, y, forward, RelativeMotion(rest, path, box_of(y))})) return false;
+      if (!use(SolidPair{x, y, std::move(forward), RelativeMotion(rest, path, box_of(y))})) return false;
     }
   return true;
 }

@@ -15,12 +15,12 @@ using Vec3 = Eigen::Vector3d;
 
 using std::numbers::pi;
 
-/// Angles are known to this many rad.
-constexpr double kLeastTurn = 1e-3;
+/// Slack of a range of angles, rad: far beyond rounding, and far below a turn.
+constexpr double kAngleSlack = 1e-3;
 /// Triangles are divided until they are nearly straight within a cell, at most this often: into 1024.
 constexpr int kDepth = 5;
-/// Width of the cells of what is asked, in cells.
-constexpr double kWide = 4;
+/// Rows of the mesh for each row of what is asked.
+constexpr long kWide = 4;
 
 std::array<Corners, 4> quarters(const Corners& t) {
   const Vec3 a = 0.5 * (t[0] + t[1]), b = 0.5 * (t[1] + t[2]), c = 0.5 * (t[2] + t[0]);
@@ -165,7 +165,7 @@ UnrolledMesh::UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, std::
     fine_ = UnrolledRaster(ring_, lead_, winding_.rounding, cell);
     if (fine_.rows * fine_.columns <= 1'500'000) break;  // bounds the work
   }
-  wide_ = UnrolledRaster(ring_, lead_, winding_.rounding, kWide * fine_.cell);
+  wide_ = UnrolledRaster(ring_, lead_, winding_.rounding, static_cast<double>(kWide) * fine_.cell);
   asked_ = RowRuns(static_cast<std::size_t>(wide_.rows));
   for (const Corners& t : asked) ask(t, winding_.turned_at(from), winding_.turned_at(to), kDepth);
   asked_.finish();
@@ -236,7 +236,7 @@ class UnrolledMesh::BitsOfTurns {
 /// For triangles at any angle: with psi reduced to [0, lead), phi determines the height.
 UnrolledMesh::Bits UnrolledMesh::bits_of_bent(const Unrolled& u, double from, double to) const {
   const double pitch = lead_ / (2 * pi);
-  return bits(u.z_lo / pitch - 2 * pi + from - kLeastTurn, u.z_hi / pitch + to + kLeastTurn);
+  return bits(u.z_lo / pitch - 2 * pi + from - kAngleSlack, u.z_hi / pitch + to + kAngleSlack);
 }
 
 /// Marks what a triangle sweeps.
@@ -254,23 +254,23 @@ void UnrolledMesh::ask(const Corners& t, double from, double to, int depth) {
       asked_.add(static_cast<std::size_t>(row), 0, static_cast<std::int32_t>(wide_.columns - 1), b);
     return;
   }
-  BitsOfTurns bits(*this, u.phi_lo + from, u.phi_hi + to);
+  BitsOfTurns bits_of(*this, u.phi_lo + from, u.phi_hi + to);
   wide_.runs_of(
       u, [](long) { return true; },
       [&](std::size_t row, std::int32_t first, std::int32_t last, Turns turns) {
-        asked_.add(row, first, last, bits(turns));
+        asked_.add(row, first, last, bits_of(turns));
         return true;
       });
 }
 
 /// True unless none of the triangles asked meets this one, which is not bent.
 bool UnrolledMesh::is_asked(const Unrolled& u) const {
-  BitsOfTurns bits(*this, u.phi_lo, u.phi_hi);
+  BitsOfTurns bits_of(*this, u.phi_lo, u.phi_hi);
   return !wide_.runs_of(
       u, [](long) { return true; },
       [&](std::size_t row, std::int32_t first, std::int32_t last, Turns turns) {
-        const Bits b = bits(turns);
-        return asked_.each(row, first, last, [&](const Bits& asked) { return RowRuns::none(asked, b); });
+        const Bits b = bits_of(turns);
+        return asked_.each(row, first, last, [&](const Bits& asked) { return RowRuns::disjoint(asked, b); });
       });
 }
 
@@ -290,12 +290,12 @@ void UnrolledMesh::enter(const Corners& t, int depth) {
   // What is asked in the row, for any psi.
   const Bits any = bits_of_bent(u, 0, 0);
   const auto asked_in = [&](long row) {
-    const auto wide = static_cast<long>(static_cast<double>(row) / kWide);
-    return !RowRuns::none(asked_.in_row(static_cast<std::size_t>(std::min(wide, wide_.rows - 1))), any);
+    const long wide = std::min(row / kWide, wide_.rows - 1);
+    return !RowRuns::disjoint(asked_.in_row(static_cast<std::size_t>(wide)), any);
   };
-  BitsOfTurns bits(*this, u.phi_lo, u.phi_hi);
+  BitsOfTurns bits_of(*this, u.phi_lo, u.phi_hi);
   fine_.runs_of(u, asked_in, [&](std::size_t row, std::int32_t first, std::int32_t last, Turns turns) {
-    const Bits b = bits(turns);
+    const Bits b = bits_of(turns);
     taken_.add(row, first, last, b);
     return true;
   });
@@ -304,7 +304,7 @@ void UnrolledMesh::enter(const Corners& t, int depth) {
 /// True if no triangle of the mesh has any of these bits in a row.
 bool UnrolledMesh::none_in(long row, const Bits& bits) const {
   const auto r = static_cast<std::size_t>(row);
-  return RowRuns::none(taken_.in_row(r), bits) && RowRuns::none(by_bent_[r], bits);
+  return RowRuns::disjoint(taken_.in_row(r), bits) && RowRuns::disjoint(by_bent_[r], bits);
 }
 
 bool UnrolledMesh::free(const Corners& t, double from, double to, int depth, std::uint64_t& cells) const {
@@ -324,15 +324,15 @@ bool UnrolledMesh::free(const Corners& t, double from, double to, int depth, std
     return true;
   }
   if (u.bent) return false;
-  BitsOfTurns bits(*this, u.phi_lo + from, u.phi_hi + to);
+  BitsOfTurns bits_of(*this, u.phi_lo + from, u.phi_hi + to);
   return fine_.runs_of(
       u, [&](long row) { return !none_in(row, any); },
       [&](std::size_t row, std::int32_t first, std::int32_t last, Turns turns) {
         ++cells;
-        const Bits b = bits(turns);
-        return RowRuns::none(by_bent_[row], b) && taken_.each(row, first, last, [&](const Bits& taken) {
+        const Bits b = bits_of(turns);
+        return RowRuns::disjoint(by_bent_[row], b) && taken_.each(row, first, last, [&](const Bits& taken) {
           ++cells;
-          return RowRuns::none(taken, b);
+          return RowRuns::disjoint(taken, b);
         });
       });
 }

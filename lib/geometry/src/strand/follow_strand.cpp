@@ -65,8 +65,8 @@ class Follower {
     return found;
   }
 
-  /// True if a section may hold the points on the surface to both sides of a point: its outline passes both, and is
-  /// shorter than twice their distance if not.
+  /// False: no section that a strand may have holds the nearest points of the surface on a line through `point`, on
+  /// both sides of it. The outline passes both, so it is at least twice as long as their distance.
   bool may_be_across(const Vec3& point, const Vec3& direction) const {
     double across = 0;
     for (const Vec3& side : {direction, Vec3(-direction)}) {

@@ -14,7 +14,8 @@ namespace dismantle::geometry {
 class RowRuns {
  public:
   using Bits = std::array<std::uint64_t, 2>;  ///< a set; element k is bit k % 64 of word k / 64
-  static bool none(const Bits& x, const Bits& y) { return ((x[0] & y[0]) | (x[1] & y[1])) == 0; }
+  /// True if no element is in both.
+  static bool disjoint(const Bits& x, const Bits& y) { return ((x[0] & y[0]) | (x[1] & y[1])) == 0; }
   static void add_to(Bits& x, const Bits& y) {
     x[0] |= y[0];
     x[1] |= y[1];

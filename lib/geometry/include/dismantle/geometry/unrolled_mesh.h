@@ -66,8 +66,8 @@ struct UnrolledRaster {
 };
 
 /// Occupancy of a mesh in unrolled coordinates: a raster of r and psi whose cells store the occupied ranges of phi. A
-/// thread has the same profile everywhere, so thousands of its triangles share a few cells. Only what the triangles
-/// that it is made for may meet is in it: mostly a small share of the mesh.
+/// thread has the same profile everywhere, so thousands of its triangles share a few cells. It is made for some moving
+/// triangles, and holds what these may meet: mostly a small share of the mesh.
 class UnrolledMesh {
  public:
   /// `asked`: corners at the first instant of the winding, frame of B; asked about are the instants `from` to `to`.
@@ -91,8 +91,9 @@ class UnrolledMesh {
   bool none_in(long row, const Bits& bits) const;
   Bits bits(double lo, double hi) const;
   Bits bits_of_bent(const Unrolled& u, double from, double to) const;
-  /// A triangle at rest, and one that moves while the winding has turned from `from` to `to`, rad.
+  /// False: a triangle of the mesh does not meet what the triangles asked sweep.
   bool near(const Unrolled& u) const { return near(u, 0, 0); }
+  /// The same for a triangle that moves while the winding has turned from `from` to `to`, rad.
   bool near(const Unrolled& u, double from, double to) const {
     const double pitch = lead_ / kTurn;
     return u.r_hi >= ring_.r_lo && u.r_lo <= ring_.r_hi && u.z_hi + pitch * to + winding_.rounding >= ring_.z_lo &&
