@@ -24,8 +24,8 @@ std::string_view to_string(Verdict verdict) {
   return "uncertain";
 }
 
-Judgement judge_forces(const Pile& pile, const std::function<bool()>& stop) {
-  Balance any = balance(pile, FrictionLaw::associated, stop);
+Judgement judge_forces(const Pile& pile, const std::function<bool()>& stop, const Motions& near) {
+  Balance any = balance(pile, FrictionLaw::associated, stop, near);
   if (any.balanced && check_equilibrium(pile, any.forces).empty())
     return {Verdict::stands, std::move(any.forces), std::move(any.displacement), {}};
   if (!any.balanced && check_fall(pile, any.falling).empty()) return {Verdict::falls, {}, {}, std::move(any.falling)};

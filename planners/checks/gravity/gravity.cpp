@@ -34,6 +34,19 @@ std::string list_of(const Assembly& assembly, const std::vector<PartId>& parts) 
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// Adds parts with their poses to a key: a pose only where it is not that of the part before.
+void add_key(std::span<const PlacedPart> parts, std::vector<double>& key) {
+  constexpr double kPoseFollows = -1;  // no id
+  Pose last;
+  for (const PlacedPart& p : parts) {
+    if (!(p.pose == last))
+      key.insert(key.end(), {kPoseFollows, p.pose.t.x(), p.pose.t.y(), p.pose.t.z(), p.pose.q.w(), p.pose.q.x(),
+                             p.pose.q.y(), p.pose.q.z()});
+    key.push_back(static_cast<double>(p.part));
+    last = p.pose;
+  }
+}
+
 /// To three significant digits, for readers.
 double rounded(double value) {
   if (!(value > 0)) return 0;
@@ -105,6 +118,7 @@ Gravity::State Gravity::holds_of(Scene& scene, const statics::BuiltPile& built, 
   State state;
   state.found = holds.found;
   state.proved = holds.proved;
+  state.displacement = holds.displacement;
   if (holds.found && holds.proved) {
     statics::HoldProof proof{holds.held, holds.displacement, {}};
     for (const statics::HoldGroup& group : holds.groups) proof.falls.push_back(group.motion);
@@ -140,52 +154,61 @@ Gravity::State Gravity::holds_of(Scene& scene, const statics::BuiltPile& built, 
   return state;
 }
 
-Gravity::State Gravity::at_rest(Scene& scene, const Assembly& assembly, std::span<const PlacedPart> placed,
-                                const Vec3& up, bool table) const {
+Gravity::StatePtr Gravity::at_rest(Scene& scene, const Assembly& assembly, std::span<const PlacedPart> placed,
+                                   const Vec3& up, bool table) const {
   const std::vector<PlacedPart> parts = statics::where_assembled({placed.begin(), placed.end()});
   std::vector<double> key{up.x(), up.y(), up.z(), table ? 1.0 : 0.0};
-  for (const PlacedPart& p : parts)
-    key.insert(key.end(), {static_cast<double>(p.part), p.pose.t.x(), p.pose.t.y(), p.pose.t.z(), p.pose.q.w(),
-                           p.pose.q.x(), p.pose.q.y(), p.pose.q.z()});
-  {
-    const std::lock_guard lock(mutex_);
-    if (const auto known = scene.known.find(key); known != scene.known.end()) return known->second;
-  }
-  State state;
-  const auto balanced = [&](Gaps gaps) {
-    const statics::Pile pile = scene.piles->pile(parts, up, gaps, table).pile;
-    statics::Judgement found = statics::judge_forces(pile);
-    if (found.verdict != statics::Verdict::stands || !statics::hanging_groups(pile).empty()) return false;
-    state.gaps = gaps;
-    statics::add_hold_proof({{}, std::move(found.displacement), {}}, pile, "", state.numbers);
-    return true;
-  };
-  if (!table || scene.piles->unsupported(parts, parts, up) > 0 || !(balanced(Gaps::tight) || balanced(Gaps::play)))
-    state = holds_of(scene, scene.piles->pile(parts, up, Gaps::play, table), parts, assembly);
-  const std::lock_guard lock(mutex_);
-  return scene.known.emplace(std::move(key), std::move(state)).first->second;
+  add_key(parts, key);
+  return kept(scene.at_rest, std::move(key), [&] {
+    State state;
+    const auto balanced = [&](Gaps gaps) {
+      const statics::Pile pile = scene.piles->pile(parts, up, gaps, table).pile;
+      statics::Judgement found = statics::judge_forces(pile);
+      if (found.verdict != statics::Verdict::stands || !statics::hanging_groups(pile).empty()) return false;
+      state.gaps = gaps;
+      state.displacement = found.displacement;
+      statics::add_hold_proof({{}, std::move(found.displacement), {}}, pile, "", state.numbers);
+      return true;
+    };
+    if (!table || scene.piles->unsupported(parts, parts, up) > 0 || !(balanced(Gaps::tight) || balanced(Gaps::play)))
+      state = holds_of(scene, scene.piles->pile(parts, up, Gaps::play, table), parts, assembly);
+    return std::make_shared<const State>(std::move(state));
+  });
 }
 
-/// What the present parts need while the new one is pressed in, and while it is pulled back a little. What holds them
-/// at rest is taken first: usually it is enough.
-Gravity::State Gravity::while_put_in(Scene& scene, const StepQuestion& question) const {
-  if (question.present.empty() || question.direction.isZero()) return {};
-  const std::vector<PlacedPart> parts = joined(question.present, {});
-  State worst = at_rest(scene, question.assembly, parts, question.up, true);
+/// What the present parts need while the new one is pressed in, and while it is pulled back a little.
+Gravity::StatePtr Gravity::while_put_in(Scene& scene, const StepQuestion& question) const {
+  if (question.present.empty() || question.direction.isZero()) return std::make_shared<const State>();
+  const std::vector<PlacedPart> present = joined(question.present, {});
+  const Vec3 &up = question.up, &along = question.direction;
+  std::vector<double> key{up.x(), up.y(), up.z(), along.x(), along.y(), along.z()};
+  add_key(question.moving, key);
+  key.push_back(-2);  // neither an id nor the mark of a pose
+  add_key(present, key);
+  return kept(scene.while_put_in, std::move(key), [&] { return pressed_and_pulled(scene, question, present); });
+}
+
+/// What holds them at rest is taken first: usually it is enough. The forces of rest are near those of a small push.
+Gravity::StatePtr Gravity::pressed_and_pulled(Scene& scene, const StepQuestion& question,
+                                              const std::vector<PlacedPart>& parts) const {
+  const StatePtr rest = at_rest(scene, question.assembly, parts, question.up, true);
+  StatePtr worst = rest;
   const statics::BuiltPile alone = scene.piles->pile(parts, question.up, Gaps::play);
-  const State rest = worst;
+  const bool same_bodies = rest->displacement.size() == alone.pile.bodies.size();
   for (const double sign : {1.0, -1.0}) {
     statics::BuiltPile pressed = alone;
     scene.piles->press(pressed, parts, question.moving, sign * question.direction, statics::kHandPush, Gaps::play);
     if (pressed.pile.pushes.empty()) continue;
     statics::Pile held = pressed.pile;
-    for (const Hold& h : rest.holds)
+    for (const Hold& h : rest->holds)
       for (std::size_t i = 0; i < parts.size(); ++i)
         if (parts[i].part == h.part) held.bodies[pressed.body_of[i]].fixed = true;
-    if (statics::judge_forces(held).verdict == statics::Verdict::stands) continue;
+    const statics::Motions near = same_bodies ? rest->displacement : statics::Motions();
+    if (statics::judge_forces(held, {}, near).verdict == statics::Verdict::stands) continue;
     State state = holds_of(scene, pressed, parts, question.assembly);
     state.push = sign * statics::kHandPush;
-    if (state.holds.size() > worst.holds.size() || !state.found) worst = std::move(state);
+    if (state.holds.size() > worst->holds.size() || !state.found)
+      worst = std::make_shared<const State>(std::move(state));
   }
   return worst;
 }
@@ -225,12 +248,13 @@ StepVerdict Gravity::judge(const StepQuestion& question, const RunContext& conte
   const std::vector<PlacedPart> all = joined(question.present, question.moving);
   if (all.size() > static_cast<std::size_t>(params_.most_parts)) return estimate(question, context);
   const std::shared_ptr<Scene> scene = scene_of(assembly);
-  const State after = at_rest(*scene, assembly, all, question.up, true);
-  const State during = while_put_in(*scene, question);
-  State turned;
+  const StatePtr at_rest_after = at_rest(*scene, assembly, all, question.up, true);
+  const StatePtr put_in = while_put_in(*scene, question);
+  StatePtr while_turned = std::make_shared<const State>();
   if (question.previous != nullptr && !question.present.empty() && question.previous->up.dot(question.up) < 1 - kSameUp)
-    turned = at_rest(*scene, assembly, joined(question.present, {}),
-                     statics::up_while_turned(question.previous->up, question.up), false);
+    while_turned = at_rest(*scene, assembly, joined(question.present, {}),
+                           statics::up_while_turned(question.previous->up, question.up), false);
+  const State &after = *at_rest_after, &during = *put_in, &turned = *while_turned;
   StepVerdict verdict;
   verdict.certificate = proof_of(all, after, during, turned, scene->piles->gap(after.gaps));
   std::set<PartId> held;

@@ -55,13 +55,15 @@ class Gravity final : public StepCheck {
     std::vector<Hold> holds;
     bool found = true, proved = true;
     statics::Gaps gaps = statics::Gaps::play;
-    double push = 0;           // times the weight of the part that is put in, along its path
-    statics::Numbers numbers;  // the proof; empty: none
-    std::string picture;       // picture_json(); empty: nothing is held
+    double push = 0;                // times the weight of the part that is put in, along its path
+    statics::Motions displacement;  // that creates the forces on its pile; empty: not known
+    statics::Numbers numbers;       // the proof; empty: none
+    std::string picture;            // picture_json(); empty: nothing is held
   };
+  using StatePtr = std::shared_ptr<const State>;
   struct Scene {
     std::unique_ptr<const statics::BuiltPiles> piles;
-    std::map<std::vector<double>, State> known;
+    std::map<std::vector<double>, StatePtr> at_rest, while_put_in;  // by everything that they depend on
     statics::KnownJudgements judgements;
     std::set<std::vector<double>> bound_of;  // what the bound was asked about last: units and orientations
     std::shared_ptr<const statics::HandsBound> bound;
@@ -71,12 +73,24 @@ class Gravity final : public StepCheck {
                                 std::span<const PlacedPart> parts, const Assembly& assembly);
   State holds_of(Scene& scene, const statics::BuiltPile& built, std::span<const PlacedPart> parts,
                  const Assembly& assembly) const;
-  State at_rest(Scene& scene, const Assembly& assembly, std::span<const PlacedPart> parts, const Eigen::Vector3d& up,
-                bool table) const;
+  StatePtr at_rest(Scene& scene, const Assembly& assembly, std::span<const PlacedPart> parts, const Eigen::Vector3d& up,
+                   bool table) const;
   static std::optional<Certificate> proof_of(std::span<const PlacedPart> parts, const State& after, const State& during,
                                              const State& turned, double gap);
   std::shared_ptr<const statics::HandsBound> bound_of(std::span<const StepQuestion> operations) const;
-  State while_put_in(Scene& scene, const StepQuestion& question) const;
+  StatePtr while_put_in(Scene& scene, const StepQuestion& question) const;
+  StatePtr pressed_and_pulled(Scene& scene, const StepQuestion& question, const std::vector<PlacedPart>& present) const;
+  /// What `known` has; otherwise `find()`, which is kept.
+  template <class Find>
+  StatePtr kept(std::map<std::vector<double>, StatePtr>& known, std::vector<double> key, const Find& find) const {
+    {
+      const std::lock_guard lock(mutex_);
+      if (const auto at = known.find(key); at != known.end()) return at->second;
+    }
+    StatePtr found = find();
+    const std::lock_guard lock(mutex_);
+    return known.emplace(std::move(key), std::move(found)).first->second;
+  }
 
   GravityParameters params_;
   statics::StatedModel model_;

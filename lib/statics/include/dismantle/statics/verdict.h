@@ -35,8 +35,10 @@ struct Judgement {
 DISMANTLE_API Judgement judge(const Pile& pile, const std::function<bool()>& stop = {}, const Motions& near = {});
 
 /// The same for forces alone: `stands` means that forces in equilibrium exist, whatever creates them. Some ten times
-/// faster. The certificates are `forces` and `motion`; `displacement` gives the forces by spring_forces().
-DISMANTLE_API Judgement judge_forces(const Pile& pile, const std::function<bool()>& stop = {});
+/// faster. The certificates are `forces` and `motion`; `displacement` gives the forces by spring_forces(). `near`: as
+/// for balance().
+DISMANTLE_API Judgement judge_forces(const Pile& pile, const std::function<bool()>& stop = {},
+                                     const Motions& near = {});
 
 /// Is a pile that forces balance (`by_forces`: what judge_forces() found) pressed in? False, too, if it is not found
 /// out. Fast where nothing slides.
