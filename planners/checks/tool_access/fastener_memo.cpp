@@ -67,10 +67,13 @@ FastenerMemo::FastenerMemo(const Assembly& assembly)
     : assembly_(assembly),
       boxes_(geometry::index_of_parts(assembly)),
       mm_(fasteners::millimetres_per_unit(assembly)),
+      placements_(geometry::find_congruent(assembly.parts)),
       surface_once_(assembly.parts.size()),
       driven_once_(assembly.parts.size()),
+      shape_once_(assembly.parts.size()),
       surfaces_(assembly.parts.size()),
-      driven_(assembly.parts.size()) {
+      driven_(assembly.parts.size()),
+      shapes_(assembly.parts.size()) {
   for (const Part& part : assembly.parts) meshes_.push_back(part.mesh);
 }
 
@@ -94,12 +97,22 @@ const Driven* FastenerMemo::driven(PartId part) const {
   return driven_[part] ? &*driven_[part] : nullptr;
 }
 
+Shape FastenerMemo::shape_of(PartId part) const {
+  const auto& [original, pose] = placements_[part];
+  std::call_once(shape_once_[original],
+                 [&] { shapes_[original] = fasteners::recognise_shape(*assembly_.parts[original].mesh, mm_); });
+  Shape shape = shapes_[original];
+  shape.axis = pose.q * shape.axis;
+  shape.top = pose * shape.top;
+  return shape;
+}
+
 std::optional<Driven> FastenerMemo::look_at(const Part& part) const {
   const auto among = [](Kind kind) {
     return kind == Kind::screw || kind == Kind::nut || kind == Kind::ring || kind == Kind::pin || kind == Kind::bearing;
   };
   if (part.kind && !among(fasteners::kind_from_string(part.kind->kind).value_or(Kind::other))) return std::nullopt;
-  Shape shape = fasteners::recognise_shape(*part.mesh, mm_);
+  Shape shape = shape_of(part.id);
   const PartKind said = kind_of(part, shape);
   const Kind kind = fasteners::kind_from_string(said.kind).value_or(Kind::other);
   const bool turned = kind == Kind::screw || kind == Kind::nut;

@@ -16,6 +16,7 @@
 #include "dismantle/fasteners/pattern.h"
 #include "dismantle/fasteners/shape.h"
 #include "dismantle/geometry/box_index.h"
+#include "dismantle/geometry/congruent_parts.h"
 #include "dismantle/simulator.h"
 #include "dismantle/tools/access.h"
 
@@ -96,6 +97,8 @@ class FastenerMemo {
     explicit Row(std::size_t parts) : once(parts), arcs(parts) {}
   };
   const TriangleBvh& surface(PartId part) const;
+  /// Looked at once for all parts of one shape.
+  fasteners::Shape shape_of(PartId part) const;
   std::optional<Driven> look_at(const Part& part) const;
   void find_fastenings() const;
   bool driven_by_thread(PartId part) const;
@@ -106,9 +109,11 @@ class FastenerMemo {
   std::vector<std::shared_ptr<const Mesh>> meshes_;
   geometry::BoxIndex boxes_;
   double mm_;
-  mutable std::vector<std::once_flag> surface_once_, driven_once_;
+  std::vector<geometry::ShapePlacement> placements_;
+  mutable std::vector<std::once_flag> surface_once_, driven_once_, shape_once_;
   mutable std::vector<std::unique_ptr<TriangleBvh>> surfaces_;
   mutable std::vector<std::optional<Driven>> driven_;
+  mutable std::vector<fasteners::Shape> shapes_;  // by original
   mutable std::once_flag fastenings_once_;
   mutable std::vector<fasteners::Fastening> fastenings_;
   mutable std::vector<fasteners::Pattern> patterns_;
