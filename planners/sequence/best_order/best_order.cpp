@@ -184,7 +184,7 @@ class Rewriting {
     std::optional<Eigen::Vector3d> best;
     double least = kForbidden;
     for (const std::optional<Eigen::Vector3d>& up : scene_.ups) {
-      const double cost = order::estimate_of(plan_, query_, up.value_or(query_.objective.up), context_);
+      const double cost = order::estimate_of(plan_, query_, up.value_or(query_.objective.up), least, context_);
       if (!(cost < least - kSame)) continue;
       least = cost;
       best = up;

@@ -85,9 +85,15 @@ StepsToTarget steps_to_target(const std::vector<Removal>& plan, const SequenceQu
 
 namespace {
 
-/// Sum of what `ask` says of the steps as assembly operations. `up`: overrides that of the steps.
+struct SumOptions {
+  std::optional<Eigen::Vector3d> up{};  // overrides that of the steps
+  double most = kForbidden;             // above it need not be the whole sum
+  std::size_t every = 1;                // one of so many steps stands for all of them
+};
+
+/// Sum of what `ask` says of the steps as assembly operations.
 template <class Ask>
-double sum_of(const std::vector<Removal>& plan, const SequenceQuery& query, const std::optional<Eigen::Vector3d>& up,
+double sum_of(const std::vector<Removal>& plan, const SequenceQuery& query, const SumOptions& options,
               const RunContext& context, Ask ask, std::vector<double>* by_check = nullptr) {
   Disassembly done(query.assembly.parts.size(), query.start);
   std::deque<Operation> operations;
@@ -95,7 +101,7 @@ double sum_of(const std::vector<Removal>& plan, const SequenceQuery& query, cons
     const std::size_t group = done.group(removal.parts.front());
     const std::vector<PartId> rest = without(done.groups()[group], removal.parts);
     operations.emplace_front(query.assembly, done.placed(removal.parts), done.placed(rest), removal.attempt->path(),
-                             up.value_or(removal.up.value_or(query.objective.up)));
+                             options.up.value_or(removal.up.value_or(query.objective.up)));
     done.add(step_of(removal));
   }
   std::deque<StepQuestion> alone, questions;
@@ -106,11 +112,12 @@ double sum_of(const std::vector<Removal>& plan, const SequenceQuery& query, cons
   const std::vector<ObjectiveItem>& items = query.objective.items;
   if (by_check != nullptr) by_check->assign(items.size(), 0);
   try {
-    for (const StepQuestion& question : questions) {
-      const ObjectiveVerdict verdict = ask(question);
+    for (std::size_t k = 0; k < questions.size(); k += options.every) {
+      const ObjectiveVerdict verdict = ask(questions[k]);
       if (verdict.refused && by_check != nullptr) by_check->clear();
       if (verdict.refused) return kForbidden;
-      sum += verdict.cost;
+      sum += static_cast<double>(options.every) * verdict.cost;
+      if (sum > options.most) return sum;
       for (std::size_t i = 0; by_check != nullptr && i < items.size(); ++i) (*by_check)[i] += verdict.verdicts[i].cost;
     }
     const std::vector<StepQuestion> all(questions.begin(), questions.end());
@@ -131,13 +138,14 @@ double sum_of(const std::vector<Removal>& plan, const SequenceQuery& query, cons
 double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, const RunContext& context,
                std::vector<double>* by_check) {
   return sum_of(
-      plan, query, std::nullopt, context,
-      [&](const StepQuestion& question) { return query.objective.judge(question, context); }, by_check);
+      plan, query, {}, context, [&](const StepQuestion& question) { return query.objective.judge(question, context); },
+      by_check);
 }
 
-double estimate_of(const std::vector<Removal>& plan, const SequenceQuery& query, const Eigen::Vector3d& up,
+double estimate_of(const std::vector<Removal>& plan, const SequenceQuery& query, const Eigen::Vector3d& up, double most,
                    const RunContext& context) {
-  return sum_of(plan, query, up, context, [&](const StepQuestion& question) {
+  constexpr std::size_t kMostAsked = 256;  // steps of a long plan, at equal distances
+  return sum_of(plan, query, {up, most, 1 + plan.size() / kMostAsked}, context, [&](const StepQuestion& question) {
     return query.objective.judge(question, context, &StepCheck::estimate);
   });
 }
