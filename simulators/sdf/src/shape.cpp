@@ -75,7 +75,7 @@ std::shared_ptr<const Shape> make_shape(const Part& part, const Pose& to_shape, 
     poll();
     SolidField field;
     field.box = solid.mesh.box();
-    field.surface = std::make_unique<SurfaceQuery>(solid, options.points.spacing, poll);
+    field.surface = std::make_unique<SurfaceQuery>(solid, poll);
     poll();
     // The sign of an open surface does not follow from that of neighbours: all nodes are queried.
     const GridOptions& grid = solid.open ? bounding_grid() : options.grid;

@@ -12,12 +12,8 @@ float above(double x) { return std::nextafter(static_cast<float>(x), std::numeri
 
 }  // namespace
 
-SurfaceQuery::SurfaceQuery(const Solid& solid, double near, const geometry::Poll& poll)
-    : near_(near),
-      indices_(solid.mesh.triangles),
-      face_(solid.face_normal),
-      vertex_(solid.vertex_normal),
-      edge_(solid.edge_normal) {
+SurfaceQuery::SurfaceQuery(const Solid& solid, const geometry::Poll& poll)
+    : indices_(solid.mesh.triangles), face_(solid.face_normal), vertex_(solid.vertex_normal), edge_(solid.edge_normal) {
   const auto n = static_cast<std::uint32_t>(solid.mesh.triangles.size());
   std::vector<Aabb> boxes(n);
   for (std::uint32_t t = 0; t < n; ++t)
@@ -32,7 +28,7 @@ SurfaceQuery::SurfaceQuery(const Solid& solid, double near, const geometry::Poll
   slabs_.reserve(n);
   Aabb reach = solid.mesh.box();
   coplanar_ = std::numeric_limits<float>::epsilon() * reach.size().norm();
-  reach.inflate(near_);
+  reach.inflate(kNear);
   bounded_within_ = 2 * reach.lo.cwiseAbs().cwiseMax(reach.hi.cwiseAbs()).norm();
   for (std::uint32_t s = 0; s < n; ++s) {
     poll.in_pass(s);
@@ -48,7 +44,7 @@ SurfaceQuery::SurfaceQuery(const Solid& solid, double near, const geometry::Poll
   if (n == 0) return;
   // 24 cells along the longest edge of the part, or of the region around a small part: more cells cost memory and save
   // little time.
-  const double cell = std::clamp(solid.mesh.box().size().maxCoeff() / 24, 2 * near_ / 24, 0.5 * near_);
+  const double cell = std::clamp(solid.mesh.box().size().maxCoeff() / 24, 2 * kNear / 24, 0.5 * kNear);
   cells_ = std::make_unique<CandidateCells>(reach, cell);
 }
 
@@ -73,7 +69,7 @@ CandidateDraft SurfaceQuery::candidates_of(const Eigen::Vector3d& center, std::u
   const double reach = std::sqrt(nearest.squared) + 2 * cells_->half_diagonal();
   list.reach = reach;
   // No point of the cell is near the surface.
-  list.usable = std::abs(list.distance) <= near_ + cells_->half_diagonal();
+  list.usable = std::abs(list.distance) <= kNear + cells_->half_diagonal();
   if (!list.usable) return list;
   const PointLanes at(center);
   const float filter = TriangleSlabs::filter(reach * reach);
@@ -187,7 +183,7 @@ double SurfaceQuery::flat_radius(const Eigen::Vector3d& p, const Sample& sample,
   if (sample.feature != Feature::face || walls_) return 0;
   const double distance = std::abs(sample.value), off = (p - list.center).norm();
   const auto alone = [&](double other) { return 0.5 * (other - distance) - wanted.from_edge; };
-  double radius = std::min(near_, alone(list.reach - off));
+  double radius = std::min(kNear, alone(list.reach - off));
   double limit = distance + 2 * (radius + wanted.from_edge);
   const PointLanes at(p);
   const std::uint32_t own = face_of_[sample.triangle];
@@ -285,7 +281,7 @@ Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_
   if (nodes_.empty()) return {};
   Nearest nearest{limit * limit};
   if (hint < slot_.size()) update_nearest(p, slot_[hint], nearest);
-  if (nearest.slot != geometry::kNoIndex && nearest.squared < near_ * near_ && cells_->covers(p)) {
+  if (nearest.slot != geometry::kNoIndex && nearest.squared < kNear * kNear && cells_->covers(p)) {
     if (list == nullptr)
       list = &cells_->at(p, [&](const Eigen::Vector3d& center) { return candidates_of(center, nearest.slot); });
     if (list->usable) {

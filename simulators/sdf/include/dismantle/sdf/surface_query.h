@@ -53,9 +53,7 @@ constexpr int kMaxPlanes = 4;
 /// The cache does not affect answers; queries allocate only new lists.
 class SurfaceQuery {
  public:
-  /// `near`: distance from the surface within which lists of triangles speed up queries; > 0. Answers do not depend on
-  /// it.
-  explicit SurfaceQuery(const Solid& solid, double near = 0.1, const geometry::Poll& poll = {});
+  explicit SurfaceQuery(const Solid& solid, const geometry::Poll& poll = {});
 
   /// Exact signed distance if its magnitude is below `limit`, else a Sample without triangle. `hint`: a triangle that
   /// is probably close (from the last query of a moving point); `list`: from prefetch(). Both only affect speed.
@@ -94,6 +92,9 @@ class SurfaceQuery {
   static constexpr std::size_t kMostPrefetched = 64;  ///< limit of points per call
 
  private:
+  /// Assembly units from the surface within which lists of triangles speed up queries: several margins of a contact,
+  /// from where the points come that a step of the simulation may bring near. Answers do not depend on it.
+  static constexpr double kNear = 0.2;
   struct Node {
     float lo[3], hi[3];
     std::uint32_t first;  ///< leaf: first slot; inner: right child (left is the next node)
@@ -128,7 +129,6 @@ class SurfaceQuery {
                      const FlatnessWanted& wanted) const;
 
   std::unique_ptr<const WallSides> walls_;  // of an open surface, which the nearest feature does not have two sides of
-  double near_;
   double coplanar_ = 0;  // distance from a plane within which a face of a single precision file is flat
   std::unique_ptr<CandidateCells> cells_;
   std::vector<Node> nodes_;
