@@ -295,7 +295,7 @@ class Rewriting {
       keeper_.removed(removal, now.groups()[group].size());
       context_.progress("order", done.size(), steps.size());
     }
-    const double cost = order::cost_of(done, query_, context_);
+    const double cost = order::cost_within(before + kSame, done, query_, context_);
     if (cost < before + kSame) {
       after_ = cost;
     } else {

@@ -142,6 +142,21 @@ double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, con
       by_check);
 }
 
+double cost_within(double most, const std::vector<Removal>& plan, const SequenceQuery& query,
+                   const RunContext& context) {
+  Objective quick{{}, query.objective.up}, slow{{}, query.objective.up};
+  for (const ObjectiveItem& item : query.objective.items)
+    (item.check->traits().estimates ? slow : quick).items.push_back(item);  // what gives estimates takes longer itself
+  double sum = 0;
+  for (const Objective& part : {quick, slow}) {
+    if (part.empty() || sum > most) continue;
+    const SequenceQuery own{query.assembly, query.start, query.constraints, part, query.said};
+    sum += sum_of(plan, own, {.most = most - sum}, context,
+                  [&](const StepQuestion& question) { return part.judge(question, context); });
+  }
+  return sum;
+}
+
 double estimate_of(const std::vector<Removal>& plan, const SequenceQuery& query, const Eigen::Vector3d& up, double most,
                    const RunContext& context) {
   constexpr std::size_t kMostAsked = 256;  // steps of a long plan, at equal distances

@@ -39,6 +39,9 @@ StepsToTarget steps_to_target(const std::vector<Removal>& plan, const SequenceQu
 /// Cost of a plan, as the engine judges it. `by_check`: without the weights, in the order of the objective.
 double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, const RunContext& context,
                std::vector<double>* by_check = nullptr);
+/// The same, if it is not more than `most`; otherwise any larger number. What is quick to find out is asked first.
+double cost_within(double most, const std::vector<Removal>& plan, const SequenceQuery& query,
+                   const RunContext& context);
 /// The same by estimates, and with the whole lying with `up` (unit) upwards all the time. What costs more than `most`
 /// is not asked to the end: the answer is larger then. Of a long plan, some steps stand for all.
 double estimate_of(const std::vector<Removal>& plan, const SequenceQuery& query, const Eigen::Vector3d& up, double most,
