@@ -6,12 +6,41 @@
 #include <cmath>
 #include <set>
 
+#include "dismantle/geometry/hull.h"
 #include "dismantle/geometry/numerics.h"
 
 namespace dismantle {
 namespace {
 
 bool usable(const Pose& p) { return p.t.allFinite() && p.q.coeffs().allFinite() && std::abs(p.q.norm() - 1) <= 1e-6; }
+
+/// Does a point of a mesh travel further than `most` from one pose to the next? On a screw the speed of a point is
+/// convex in its place, so that a corner of the hull travels furthest.
+class Travel {
+ public:
+  Travel(const Mesh& mesh, double most) : mesh_(mesh), box_(mesh.box()), most_(most) {}
+
+  bool too_far(const Pose& a, const Pose& b) {
+    if (screw_travel(a, b, box_.center(), 0.5 * box_.size().norm()) <= most_) return false;
+    if (corners_.empty()) corners_ = hull_corners(mesh_.vertices);
+    // A displacement across the axis is the chord of an arc.
+    const Eigen::Vector3d turn = rotation_vector(b.q * a.q.conjugate());
+    const double half = 0.5 * turn.norm(), arc = half > geometry::kRounding ? half / std::sin(half) : 1;
+    const Eigen::Vector3d axis = turn.stableNormalized(), shift = b.t - a.t;
+    const Eigen::Matrix3d rotated = b.q.toRotationMatrix() - a.q.toRotationMatrix();
+    return std::ranges::any_of(corners_, [&](const Eigen::Vector3d& v) {
+      const Eigen::Vector3d moved = rotated * v + shift;
+      const double along = axis.dot(moved), chord = moved.squaredNorm() - along * along;
+      return along * along + arc * arc * chord > most_ * most_;
+    });
+  }
+
+ private:
+  const Mesh& mesh_;
+  Aabb box_;
+  double most_;
+  std::vector<Eigen::Vector3d> corners_;
+};
 
 }  // namespace
 
@@ -29,15 +58,6 @@ std::optional<PartId> PlanState::find(const std::string& name) const {
   const auto it = ids_.find(name);
   if (it == ids_.end()) return std::nullopt;
   return it->second;
-}
-
-bool PlanState::travels_too_far(PartId id, const Pose& a, const Pose& b) const {
-  const double most = 0.01 * size_ * (1 + geometry::kRounding);  // rule of the plan format: 1 % of the largest edge
-  const Mesh& mesh = *assembly_->parts[id].mesh;
-  const Aabb box = mesh.box();
-  if (screw_travel(a, b, box.center(), 0.5 * box.size().norm()) <= most) return false;
-  return std::any_of(mesh.vertices.begin(), mesh.vertices.end(),
-                     [&](const Eigen::Vector3d& v) { return screw_travel(a, b, v, 0) > most; });
 }
 
 std::optional<StepMotion> PlanState::read(const std::vector<PlanMove>& moves,
@@ -76,13 +96,16 @@ std::optional<StepMotion> PlanState::read(const std::vector<PlanMove>& moves,
       const Pose unit{move.poses[k].t, move.poses[k].q.normalized()};
       motion.path[k].push_back(assembly_->normalization.pose_to_internal(unit));
     }
-  for (std::size_t i = 0; i < motion.moving.size(); ++i)
+  const double most = 0.01 * size_ * (1 + geometry::kRounding);  // rule of the plan format: 1 % of the largest edge
+  for (std::size_t i = 0; i < motion.moving.size(); ++i) {
+    Travel travel(*assembly_->parts[motion.moving[i]].mesh, most);
     for (std::size_t k = 0; k + 1 < motion.path.size(); ++k)
-      if (travels_too_far(motion.moving[i], motion.path[k][i], motion.path[k + 1][i])) {
+      if (travel.too_far(motion.path[k][i], motion.path[k + 1][i])) {
         problems.push_back(fmt::format("'{}' travels more than 1 % of the assembly's size from pose {} to the next",
                                        name(motion.moving[i]), k));
         break;
       }
+  }
   return motion;
 }
 

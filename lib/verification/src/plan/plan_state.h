@@ -41,8 +41,6 @@ class PlanState {
   double tolerance() const { return 1e-6 * size_; }
 
  private:
-  bool travels_too_far(PartId id, const Pose& a, const Pose& b) const;
-
   const Assembly* assembly_;
   std::map<std::string, PartId> ids_;
   double size_ = 0;  // largest edge of the assembly's box, assembly units
