@@ -159,7 +159,7 @@ double cost_within(double most, const std::vector<Removal>& plan, const Sequence
 
 double estimate_of(const std::vector<Removal>& plan, const SequenceQuery& query, const Eigen::Vector3d& up, double most,
                    const RunContext& context) {
-  constexpr std::size_t kMostAsked = 256;  // steps of a long plan, at equal distances
+  constexpr std::size_t kMostAsked = 100;  // steps of a long plan, at equal distances
   return sum_of(plan, query, {up, most, 1 + plan.size() / kMostAsked}, context, [&](const StepQuestion& question) {
     return query.objective.judge(question, context, &StepCheck::estimate);
   });
