@@ -304,7 +304,7 @@ void add_other_places(Plan& plan, const Disassembly& done, const std::vector<std
                       const Assembly& assembly, const Objective& objective, const Constraints& constraints,
                       const RunContext& context) {
   const std::size_t steps = done.steps().size();
-  if (objective.empty() || steps > kMost || needed.size() < steps || !was_judged(plan)) return;
+  if (!prefers_orders(objective) || steps > kMost || needed.size() < steps || !was_judged(plan)) return;
   for (PlanAlternative& one : OtherPlaces(plan, done, needed, assembly, objective, constraints, context).found())
     plan.objective.alternatives.push_back(std::move(one));
 }

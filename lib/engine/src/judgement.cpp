@@ -151,6 +151,10 @@ Operation operation_of(const Disassembly& disassembly, std::size_t k, const Asse
   return {assembly, disassembly.placed(step.parts, k), std::move(present), *step.path, step.up.value_or(up)};
 }
 
+bool prefers_orders(const Objective& objective) {
+  return std::ranges::any_of(objective.items, [](const ObjectiveItem& i) { return i.require || i.weight > 0; });
+}
+
 void judge(Plan& plan, const Disassembly& disassembly, const Assembly& assembly, const Objective& objective,
            const RunContext& context) {
   if (objective.empty()) return;

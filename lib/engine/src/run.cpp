@@ -179,8 +179,9 @@ class Run {
 
   void plan_steps() {
     if (options_.resume) replay(*options_.resume, assembly_, options_.constraints, oracle_, recorder_, context_);
+    const Objective none{{}, setup_.objective.up};
     const SequenceQuery query{assembly_, open_groups(recorder_.disassembly(), options_.constraints),
-                              options_.constraints, setup_.objective};
+                              options_.constraints, prefers_orders(setup_.objective) ? setup_.objective : none};
     if (RequiringOracle::is_needed(setup_.objective))
       requiring_.emplace(assembly_, setup_.objective, recorder_.disassembly(), oracle_);
     PathOracle& asked = requiring_ ? static_cast<PathOracle&>(*requiring_) : oracle_;

@@ -123,7 +123,9 @@ std::string first_order_words(const PlanObjective& objective) {
 
 std::vector<std::string> cost_words(const Plan& plan, bool disassembly) {
   const PlanObjective& objective = plan.objective;
-  if (objective.empty()) return {"no check judged the order: it is one of those that are free of collisions"};
+  const auto decides = [](const PlanObjectiveItem& item) { return item.weight > 0 || item.require; };
+  if (std::ranges::none_of(objective.checks, decides))
+    return {"no check judged the order: it is one of those that are free of collisions"};
   std::vector<std::string> out;
   for (const PlanObjectiveItem& item : objective.checks) {
     std::set<std::size_t> where;

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "dismantle/engine/judgement.h"
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/input_frame.h"
 #include "dismantle/session/objective.h"
@@ -59,9 +60,10 @@ void look_upwards(PluginChoice& choice) {
   }
 }
 
-/// The same in a `best_order`, if there is an objective.
-PluginChoice with_best_order(const RunConfig& config, const Registry& registry, PluginChoice sequence) {
-  if (checks_of(config, registry).empty()) return sequence;
+/// The same in a `best_order`, if some orders are better than others.
+PluginChoice with_best_order(const RunConfig& config, const Registry& registry, const Objective& objective,
+                             PluginChoice sequence) {
+  if (!prefers_orders(objective)) return sequence;
   const bool wrapped = names(sequence, "best_order");
   if (!wrapped && (!config.run.best_order || registry.lookup(PluginKind::sequence_planner, "best_order") == nullptr))
     return sequence;
@@ -92,7 +94,8 @@ PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registr
   out.path_planner = [&registry, choice = config.path_planner] {
     return registry.create<PathPlanner>(choice.type, choice.parameters);
   };
-  const PluginChoice sequence = with_best_order(config, registry, with_last_resort(config, registry));
+  out.objective = objective_of(config, registry, up);
+  const PluginChoice sequence = with_best_order(config, registry, out.objective, with_last_resort(config, registry));
   out.sequence_planner = registry.create<SequencePlanner>(sequence.type, sequence.parameters);
   out.path_planner_id = config.path_planner.type;
   out.sequence_planner_id = config.sequence_planner.type;
@@ -104,7 +107,6 @@ PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registr
   }
   for (const PluginChoice& choice : config.provers)
     out.provers.push_back({choice.type, registry.create<ImmobilityProver>(choice.type, choice.parameters)});
-  out.objective = objective_of(config, registry, up);
   return out;
 }
 

@@ -137,6 +137,24 @@ TEST_F(SessionTest, OneSessionServesTwoThreads) {
   EXPECT_EQ(second.get(), slot);
 }
 
+TEST_F(SessionTest, ChecksWithoutWeightMeasureAndChangeNothing) {
+  const auto plan = [&](const std::string& name, const std::string& planner, const std::string& objective) {
+    const Session session({{}, {"run.threads=1", "sequence_planner.type=" + planner, "objective=" + objective}, {}});
+    Plan made = session.plan(sample(session, name)).plan;
+    for (const PlanStep& step : made.disassembly) EXPECT_EQ(step.checks.empty(), objective == "[]");
+    EXPECT_EQ(made.objective.cost, 0);
+    EXPECT_TRUE(made.objective.alternatives.empty());
+    made.objective = {};
+    for (PlanStep& step : made.disassembly) step.checks.clear();
+    return without_times(made);
+  };
+  for (const std::string name : {"machine", "stacked_box"})
+    for (const std::string planner : {"blocking", "progressive"})
+      EXPECT_EQ(plan(name, planner, "[{type: directions, weight: 0}, {type: gravity, weight: 0}]"),
+                plan(name, planner, "[]"))
+          << name << ", " << planner;
+}
+
 TEST_F(SessionTest, AJobShowsItsStepsAndStopsWhenItIsCancelled) {
   const Session session({{}, kOneThread, {}});
   const LoadedAssembly loaded = sample(session, "machine");

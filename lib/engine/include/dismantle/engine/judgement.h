@@ -16,6 +16,10 @@
 
 namespace dismantle {
 
+/// Does it prefer some orders to others? An objective whose weights are all 0, without `require`, only measures: plans
+/// are the same as without it.
+DISMANTLE_API bool prefers_orders(const Objective& objective);
+
 /// Step `k`, from 0, as an assembly operation. It refers to `assembly`.
 DISMANTLE_API Operation operation_of(const Disassembly& disassembly, std::size_t k, const Assembly& assembly,
                                      const Eigen::Vector3d& up);
