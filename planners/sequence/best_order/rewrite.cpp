@@ -167,6 +167,8 @@ double estimate_of(const std::vector<Removal>& plan, const SequenceQuery& query,
 
 namespace {
 
+constexpr const char* kOwn = "best_order";  // the planner of steps that no planner inside has found
+
 /// Continues the path along `out` (unit) until the parts are apart from what stays.
 void go_on(const Attempt& attempt, const Eigen::Vector3d& out, const OrderScene& scene, Path& path) {
   std::vector<PlacedPart> at_end = attempt.moving;
@@ -196,6 +198,7 @@ Removal straight_out(std::vector<PartId> parts, std::size_t direction, const std
   removal.parts = std::move(parts);
   removal.attempt = &answer;
   removal.up = up;
+  removal.planner = kOwn;
   return removal;
 }
 
@@ -238,7 +241,7 @@ Removal verified(const Step& step, const Disassembly& now, OrderScene& scene, st
   blocked_by = answer.result.blocked_by;
   if (!is_success(answer.result.outcome())) return {};
   removal.attempt = &answer;
-  removal.planner = planned == nullptr || !planned->attempt->proposed ? "" : planned->planner;
+  removal.planner = planned == nullptr ? kOwn : planned->planner;
   return removal;
 }
 
