@@ -243,13 +243,25 @@ class Report(BenchTest):
     def test_tables_of_the_suite(self):
         """A table of the suite has the means of the columns that it names, over all trials or the solved ones."""
         more = ("seeds: 1..2\nsearch_nodes: 50\nobjective: [{type: directions, weight: 0}]\ntables:\n"
-                "  - {id: acme.effort, title: Effort of all, columns: [attempts, counts.iterations, checks.directions], trials: all}\n"
+                "  - {id: acme.effort, title: Effort of all, columns: [attempts, counts.iterations, checks.directions,"
+                " counts.refused, counts.itertions], trials: all}\n"
                 "  - {id: solved_ones, columns: [steps]}\n")
         self.suite(self.PLANNERS + self.evil("none"), more=more, assemblies="  - {sample: stacked_box}\n", name="own.yaml")
         self.bench(suite="own.yaml", out="own")
         table = self.rows_of("acme.effort", out="own")
-        self.assertEqual(list(table[0]), ["planner", "assemblies", "attempts", "counts.iterations", "checks.directions"])
+        self.assertEqual(list(table[0]), ["planner", "assemblies", "attempts", "counts.iterations", "checks.directions",
+                                          "counts.refused", "counts.itertions"])
+        self.assertIn("No trial has `counts.itertions`; there are counts.", self.report("own", "--table", "acme.effort"))
+        self.assertEqual({line["counts.itertions"] for line in table}, {"-"})
         rows = self.rows(database="own/results.db")
+        for line in table:  # what a planner counts in one trial, and not in another, is 0 there
+            mine = [json.loads(r["counts"]) for r in rows if r["planner"] == line["planner"] and r["counts"]]
+            for name in ("iterations", "refused"):
+                if any(name in counts for counts in mine):
+                    mean = sum(counts.get(name, 0) for counts in mine) / len(mine)
+                    self.assertAlmostEqual(float(line[f"counts.{name}"]), mean, delta=1e-3 * mean)
+                else:
+                    self.assertEqual(line[f"counts.{name}"], "-")
         for line in table:
             mine = [r["attempts"] for r in rows if r["planner"] == line["planner"]]
             self.assertAlmostEqual(float(line["attempts"]), sum(mine) / len(mine), places=2)

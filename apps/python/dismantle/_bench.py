@@ -25,7 +25,8 @@ def read_results(*paths):
     """The trials of benchmark databases, each once: dict of column name to numpy array, all of the same length.
 
     paths: databases, or folders with databases. Columns: those of the table `trials` (docs/benchmark.md): str, int, bool or float,
-    nan where a trial has no number; verified and complete: True, False or None; and progress: lists of (seconds, parts out).
+    nan where a trial has no number; verified and complete: True, False or None; progress: lists of (seconds, parts out); and
+    counts.NAME and checks.NAME, float: what planners count, and what step checks cost.
     Raises InputError.
     """
     columns = _core._read_results([os.fspath(p) for p in paths])

@@ -36,7 +36,16 @@ py::dict read_results(const std::vector<std::filesystem::path>& paths) {
   bench::for_columns(bench::ReportRow{},
                      [&](const char* name, const auto& member, const char*) { add(name, dtype_of(member)); });
   add("progress", "object");
+  std::map<std::string, py::list> named;  // a figure that a trial does not have is None
+  for (const auto& row : data.rows)
+    for (const auto& [name, value] : bench::named_figures(row)) named.try_emplace(name);
+  for (const auto& [name, values] : named) out[name.c_str()] = py::make_tuple("float", values);
   for (const auto& row : data.rows) {
+    const std::map<std::string, double> figures = bench::named_figures(row);
+    for (auto& [name, values] : named) {
+      const auto found = figures.find(name);
+      values.append(found == figures.end() ? py::object(py::none()) : py::object(py::float_(found->second)));
+    }
     auto column = columns.begin();
     bench::for_columns(row, [&](const char*, const auto& value, const char*) { (column++)->append(py::cast(value)); });
     column->append(py::cast(row.progress));

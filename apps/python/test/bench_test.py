@@ -33,6 +33,8 @@ def results(tmp_path_factory):
 def test_planners_in_python_are_rows_like_all_others(results):
     columns = dismantle.read_results(results)
     assert {len(v) for v in columns.values()} == {12}
+    counts = columns["counts.state_checks"]
+    assert counts.dtype == float and (counts[columns["planner"] == "lines"] > 0).all()
     assert columns["solved"].dtype == bool and columns["wall_seconds"].dtype == float and columns["seed"].dtype == np.int64
     for planner, solved in (("lines", True), ("bfs", True), ("raises", False)):
         mine = columns["planner"] == planner

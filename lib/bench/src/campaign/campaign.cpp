@@ -218,9 +218,12 @@ std::string dry_run_text(const Suite& suite, const CampaignOptions& options) {
   std::erase_if(cells, [&](const Cell& cell) { return !is_wanted(suite.planners[cell.planner].name, options.only); });
   std::set<std::int64_t> seeds;
   for (const auto& planner : suite.planners) seeds.insert(planner.seeds.begin(), planner.seeds.end());
-  std::string out =
-      fmt::format("{}: {} assemblies, {} planners, {} variants, {} seeds: {} trials\n", suite.name,
-                  suite.assemblies.size(), suite.planners.size(), suite.variants.size(), seeds.size(), all.size());
+  std::string out = fmt::format(
+      "{}: {} assemblies, {} planners, {} variants, {}{} seeds: {} trials\n", suite.name, suite.assemblies.size(),
+      suite.planners.size(), suite.variants.size(),
+      std::ranges::all_of(suite.planners, [&](const auto& p) { return p.seeds.size() == seeds.size(); }) ? ""
+                                                                                                         : "up to ",
+      seeds.size(), all.size());
   if (options.shards > 1)
     out += fmt::format("shard {} of {}: {} of them\n", options.shard, options.shards, cells.size());
   if (!options.only.empty()) out += fmt::format("only {}: {} of them\n", fmt::join(options.only, ", "), cells.size());

@@ -67,6 +67,7 @@ std::string content_of(const TableCell& cell) {
 std::string html_of(const Table& table) {
   std::string out = fmt::format("<h2 id='{}'>{}</h2>\n<p class='note'>{}</p>\n", "about-" + table.id,
                                 escaped_markup(table.title), escaped_markup(table.note));
+  if (!table.remark.empty()) out += fmt::format("<p class='note'>Note: {}</p>\n", escaped_markup(table.remark));
   if (table.id == "trials")
     out +=
         "<label>Show rows with <input id='filter-trials' type='search' placeholder='words, such as: bfs "

@@ -74,13 +74,8 @@ Table trials_table(const ReportData& data, const std::vector<std::string>& links
   const auto maybe = [](const auto& value) { return value ? number(double(*value), "{:.6g}") : text(""); };
   const auto yes_no = [](bool value) { return text(value ? "yes" : "no"); };
   std::set<std::string> named;  // columns that plugins have named
-  const auto figures_of = [](const ReportRow& r) {
-    std::map<std::string, double> figures = named_figures(r.checks, "checks.");
-    figures.merge(named_figures(r.counts, "counts."));
-    return figures;
-  };
   for (const auto& r : data.rows)
-    for (const auto& [name, value] : figures_of(r)) named.insert(name);
+    for (const auto& [name, value] : named_figures(r)) named.insert(name);
   std::size_t n = 0;
   for (const auto& r : data.rows) {
     std::string words = !r.verification.empty() && r.verified != true ? r.verification : r.last_words;
@@ -112,7 +107,7 @@ Table trials_table(const ReportData& data, const std::vector<std::string>& links
         {"peak MiB", number(r.peak_rss_mb, "{:.1f}")},
         {"signal", r.signal != 0 ? number(double(r.signal), "{:.0f}") : text("")},
         {"last words", text(words)}};
-    const std::map<std::string, double> figures = figures_of(r);
+    const std::map<std::string, double> figures = named_figures(r);
     for (const std::string& name : named) {
       const auto found = figures.find(name);
       cells.emplace_back(name, found == figures.end() ? text("") : number(found->second, "{:.6g}"));

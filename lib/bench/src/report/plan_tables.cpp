@@ -1,4 +1,7 @@
 // Tables of what the plans are like, and of what the planners count.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -30,21 +33,35 @@ Figures plan_figures(const ReportRow& row) {
   return out;
 }
 
+struct TableOptions {
+  bool all_trials = false;         // not only the solved ones of assemblies that all planners solved
+  bool all_of_first = false;       // columns that no planner has are shown, too
+  std::string counts = "counts.";  // how the names of what planners count begin
+};
+
 /// The mean of each figure: over the solved trials of an assembly, then over assemblies. A figure that a trial does not
-/// have is not counted.
+/// have is not counted; but what a planner counts in one trial, and not in another, is 0 there.
 Figures means_of(const Contender& c, const std::set<std::string>& assemblies, const FiguresOf& figures,
-                 bool all_trials) {
+                 const TableOptions& options) {
   struct Mean {
     double sum = 0, count = 0;
   };
-  std::map<std::string, std::map<std::string, Mean>> each;  // figure, assembly
+  std::set<std::string> counted;
   for (const ReportRow* row : c.rows)
-    if (all_trials || (row->solved && assemblies.contains(row->assembly)))
-      for (const auto& [name, value] : figures(*row)) {
-        Mean& mean = each[name][row->assembly];
-        mean.sum += value;
-        ++mean.count;
-      }
+    for (const auto& [name, value] : figures(*row))
+      if (name.starts_with(options.counts)) counted.insert(name);
+  std::map<std::string, std::map<std::string, Mean>> each;  // figure, assembly
+  for (const ReportRow* row : c.rows) {
+    if (!options.all_trials && !(row->solved && assemblies.contains(row->assembly))) continue;
+    Figures own = figures(*row);
+    if (!row->counts.empty())  // else it ended before it could count
+      for (const std::string& name : counted) own.try_emplace(name, 0);
+    for (const auto& [name, value] : own) {
+      Mean& mean = each[name][row->assembly];
+      mean.sum += value;
+      ++mean.count;
+    }
+  }
   Figures out;
   for (const auto& [name, means] : each) {
     double sum = 0;
@@ -71,8 +88,27 @@ std::set<std::string> solved_by_all(const std::vector<Contender>& contenders, co
   return common;
 }
 
+/// Names the columns that no trial has, misspelt ones perhaps, and what there is.
+std::string missing_columns(const SuiteTable& wanted, const std::vector<Contender>& contenders) {
+  std::set<std::string> known;
+  for (const Contender& c : contenders)
+    for (const ReportRow* row : c.rows)
+      for (const auto& [name, value] : named_figures(*row)) known.insert(name);
+  std::string out;
+  for (const std::string& name : wanted.columns) {
+    const std::string kind = name.substr(0, name.find('.') + 1);
+    if ((kind != "counts." && kind != "checks.") || known.contains(name)) continue;
+    std::vector<std::string> others;
+    for (const std::string& other : known)
+      if (other.starts_with(kind)) others.push_back(other);
+    out += fmt::format("{}No trial has `{}`; there {}.", out.empty() ? "" : " ", name,
+                       others.empty() ? "are none of this kind" : fmt::format("are {}", fmt::join(others, ", ")));
+  }
+  return out;
+}
+
 Table table_of(const std::vector<Contender>& contenders, const std::vector<std::string>& first,
-               const FiguresOf& figures, bool all_trials = false) {
+               const FiguresOf& figures, const TableOptions& options = {}) {
   std::vector<Figures> means;
   std::set<std::string> names;
   std::vector<std::size_t> counts;
@@ -80,13 +116,13 @@ Table table_of(const std::vector<Contender>& contenders, const std::vector<std::
     const std::set<std::string> common = solved_by_all(contenders, c);
     std::set<std::string> all;
     for (const ReportRow* row : c.rows) all.insert(row->assembly);
-    counts.push_back(all_trials ? all.size() : common.size());
-    means.push_back(means_of(c, common, figures, all_trials));
+    counts.push_back(options.all_trials ? all.size() : common.size());
+    means.push_back(means_of(c, common, figures, options));
     for (const auto& [name, value] : means.back()) names.insert(name);
   }
   std::vector<std::string> order;
   for (const std::string& name : first)
-    if (names.erase(name) > 0) order.push_back(name);
+    if (names.erase(name) > 0 || options.all_of_first) order.push_back(name);
   order.insert(order.end(), names.begin(), names.end());
   Table table;
   table.columns = {"planner", "assemblies"};
@@ -113,6 +149,12 @@ std::map<std::string, double> named_figures(const std::string& json, const std::
   return out;
 }
 
+std::map<std::string, double> named_figures(const ReportRow& row) {
+  std::map<std::string, double> figures = named_figures(row.checks, "checks.");
+  figures.merge(named_figures(row.counts, "counts."));
+  return figures;
+}
+
 Table plans_table(const std::vector<Contender>& contenders) {
   Table table = table_of(
       contenders, {"steps", "changes of direction", "along no axis", "path length", "turns", "deepest"}, plan_figures);
@@ -128,8 +170,7 @@ Table plans_table(const std::vector<Contender>& contenders) {
 
 Table suite_table(const SuiteTable& wanted, const std::vector<Contender>& contenders) {
   const auto figures = [&](const ReportRow& row) {
-    Figures known = named_figures(row.checks, "checks.");
-    known.merge(named_figures(row.counts, "counts."));
+    Figures known = named_figures(row);
     for_result_columns(row, [&]<class T>(const char* name, const T& value, const char*) {
       if constexpr (std::is_arithmetic_v<T>)
         known[name] = static_cast<double>(value);
@@ -141,7 +182,7 @@ Table suite_table(const SuiteTable& wanted, const std::vector<Contender>& conten
       if (const auto found = known.find(name); found != known.end()) out.insert(*found);
     return out;
   };
-  Table table = table_of(contenders, wanted.columns, figures, wanted.all_trials);
+  Table table = table_of(contenders, wanted.columns, figures, {wanted.all_trials, true});
   table.id = wanted.id;
   table.title = wanted.title;
   table.note = wanted.note + (wanted.note.empty() ? "" : " ") +
@@ -149,11 +190,13 @@ Table suite_table(const SuiteTable& wanted, const std::vector<Contender>& conten
                     ? "The mean over an assembly's trials that have the figure, then over assemblies."
                     : "Over the assemblies that every planner solved, of those planners that solved any: the mean over "
                       "an assembly's solved trials, then over assemblies.");
+  table.remark = missing_columns(wanted, contenders);
   return table;
 }
 
 Table counts_table(const std::vector<Contender>& contenders) {
-  Table table = table_of(contenders, {}, [](const ReportRow& row) { return named_figures(row.counts, ""); });
+  Table table =
+      table_of(contenders, {}, [](const ReportRow& row) { return named_figures(row.counts, ""); }, {.counts = ""});
   table.id = "counts";
   table.title = "What the planners count";
   table.note =

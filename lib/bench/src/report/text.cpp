@@ -51,6 +51,7 @@ std::string report_text(const ReportData& data, const std::vector<Table>& tables
     };
     out += "\n" + table.title + "\n" + line([&](std::size_t i) { return table.columns[i]; });
     for (const auto& row : table.rows) out += line([&](std::size_t i) { return row[i].text; });
+    if (!table.remark.empty()) out += "note: " + table.remark + "\n";
   }
   return out;
 }
@@ -60,6 +61,7 @@ std::string report_markdown(const ReportData& data, const std::vector<Table>& ta
   for (const auto& note : data.notes) out += "\n> " + escaped_markdown(note) + "\n";
   for (const auto& table : tables) {
     out += fmt::format("\n## {}\n\n{}\n\n", table.title, escaped_markdown(table.note));
+    if (!table.remark.empty()) out += "> " + escaped_markdown(table.remark) + "\n\n";
     for (const auto& column : table.columns) out += "| " + escaped_markdown(column) + " ";
     out += "|\n";
     for (std::size_t i = 0; i < table.columns.size(); ++i) out += "|---";

@@ -30,6 +30,10 @@ struct ReportData {
 /// hold different configurations under one name.
 DISMANTLE_API ReportData read_results(const std::vector<std::filesystem::path>& paths);
 
+/// The figures of a trial that have names of plugins: `counts.NAME` of what planners count, `checks.NAME` of what step
+/// checks cost. Empty for a trial that ended before.
+DISMANTLE_API std::map<std::string, double> named_figures(const ReportRow& row);
+
 /// Replaces the wall times of planning in `data` by the CPU seconds of the planning processes, which include reading
 /// the input. For trials that shared a busy machine with other work. A trial that `limits.timeout` stopped is censored
 /// at the CPU time that it had used by then.
@@ -44,6 +48,7 @@ struct Table {
   std::string id, title, note;
   std::vector<std::string> columns;
   std::vector<std::vector<TableCell>> rows;
+  std::string remark{};  ///< what its author has to know: also in formats that leave notes out
 };
 
 /// The tables setup, planners, success, sizes, time, solution, plans, precision, pairs, outcomes, counts, those of the
