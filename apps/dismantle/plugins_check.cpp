@@ -11,6 +11,9 @@
 namespace dismantle::app {
 
 void check_plugins(const std::vector<std::string>& plugins, const std::string& examples, bool verbose) {
+  for (const std::string& plugin : plugins)
+    if ((plugin.ends_with(".so") || plugin.find('/') != std::string::npos) && !std::filesystem::exists(plugin))
+      throw Error(plugin + ": there is no such file");
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "dismantle_contract_tests";
   std::vector<std::string> words{program.string()};
   if (!verbose) words.push_back("--gtest_brief=1");

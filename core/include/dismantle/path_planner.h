@@ -141,7 +141,7 @@ struct DISMANTLE_API SearchStats {
 
   SearchStats& operator+=(const SearchStats& other);  ///< adds up, extras by name
   bool operator==(const SearchStats&) const = default;
-  /// All non-zero fields by name, `extra` included: for reports.
+  /// The fields that are not zero, and all of `extra`, by name: for reports.
   std::map<std::string, double> by_name() const;
 };
 

@@ -52,7 +52,9 @@ class AcmeLines final : public dismantle::FunctionPathPlanner {
     }
     result.fail(dismantle::Outcome::exhausted, "none of the straight lines leads out");
     const double step = params_.step * world->radius(0);
+    double& lines = result.stats.extra["lines"];  // a count of its own: a column of reports
     for (std::int64_t n = 0; n < params_.directions; ++n) {
+      ++lines;
       const Vector3d direction = n < 6 ? (n % 2 == 0 ? 1 : -1) * Vector3d::Unit(n / 2) : random_direction(context.rng);
       for (std::int64_t k = 1;; ++k) {
         const bool spent = query.budget.max_steps > 0 && result.stats.state_checks >= query.budget.max_steps;

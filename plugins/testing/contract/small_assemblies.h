@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,16 @@
 #include "dismantle/samples/samples.h"
 #include "dismantle/testing/path_checking.h"
 #include "selection.h"
+
+namespace dismantle {
+
+// What is compared in words, for authors who see that it differs.
+inline void PrintTo(Outcome outcome, std::ostream* out) { *out << "'" << to_string(outcome) << "'"; }
+inline void PrintTo(const SearchStats& stats, std::ostream* out) {
+  for (const auto& [name, value] : stats.by_name()) *out << name << " " << value << ", ";
+}
+
+}  // namespace dismantle
 
 namespace dismantle::contract {
 
