@@ -13,6 +13,7 @@
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/plugin.h"
 #include "dismantle/samples/samples.h"
+#include "dismantle/testing/shapes.h"
 
 namespace dismantle {
 namespace {
@@ -153,6 +154,37 @@ TEST_F(SessionTest, ChecksWithoutWeightMeasureAndChangeNothing) {
       EXPECT_EQ(plan(name, planner, "[{type: directions, weight: 0}, {type: gravity, weight: 0}]"),
                 plan(name, planner, "[]"))
           << name << ", " << planner;
+}
+
+// A closed box with a plate in it lies on the lid of another box, with a tower beside it. Plates on the tower are equal
+// to those under the lid and come out next to them, so that the closed box has to rise above them: it is forced open at
+// another place than in the plan that was found first.
+TEST_F(SessionTest, AForcedStepDoesNotKeepOthersFromABetterOrder) {
+  std::vector<RawPart> parts = samples::make("stacked_box", {{"count", 2}});
+  Aabb all;
+  for (const RawPart& part : parts) all.extend(part.mesh.box());
+  Mesh plate;
+  for (const RawPart& part : parts)
+    if (part.name.starts_with("plate")) plate = part.mesh;
+  const auto add = [&](const std::string& name, const Mesh& mesh, const Eigen::Vector3d& lo) {
+    parts.push_back({});
+    parts.back().name = name;
+    parts.back().mesh = shapes::moved(mesh, shapes::shift(lo - mesh.box().lo));
+  };
+  for (const RawPart& part : samples::make("closed_box", {{"size", 40}}))
+    add("closed_" + part.name, part.mesh, Eigen::Vector3d(0, 0, all.hi.z()) + part.mesh.box().lo);
+  const Eigen::Vector3d beside(all.hi.x() + 5, all.lo.y(), all.lo.z()), size = plate.box().size();
+  const double high = 3 * all.size().z();
+  add("tower", shapes::box({0, 0, 0}, {size.x(), size.y(), high}), beside);
+  for (int i = 0; i < 2; ++i)
+    add("upper" + std::to_string(i), plate, beside + Eigen::Vector3d(0, 0, high + i * size.z()));
+  const Session session({{}, {"run.threads=1", "run.path_steps=200", "objective=[identical_parts]"}, {}});
+  const LoadedAssembly loaded = session.load(InputParts{parts, "", {}, {}}, "boxes");
+  const Plan plan = session.plan(loaded).plan;
+  ASSERT_EQ(plan.status, PlanStatus::forced);
+  const PlanCheck check = session.verify(plan, *loaded.assembly);
+  EXPECT_TRUE(check.valid) << (check.problems.empty() ? std::string() : check.problems.front().message);
+  EXPECT_EQ(plan.objective.cost, 0);
 }
 
 TEST_F(SessionTest, AJobShowsItsStepsAndStopsWhenItIsCancelled) {

@@ -18,10 +18,12 @@ constexpr std::size_t kMostSets = 1000000;  // that are tried for the bound
 
 bool moves(const Motion& m) { return !m.v.isZero(0) || !m.w.isZero(0); }
 
-/// To twelve digits, which is plenty for kCertificateTolerance.
-void add_motion(const Motion& m, std::vector<double>& to) {
+constexpr int kDigits = 12;     // plenty for kCertificateTolerance, as a rule
+constexpr int kAllDigits = 17;  // for what gives way far: forces are small differences of large displacements
+
+void add_motion(const Motion& m, int digits, std::vector<double>& to) {
   for (const double x : {m.v.x(), m.v.y(), m.v.z(), m.w.x(), m.w.y(), m.w.z()}) {
-    const std::string text = fmt::format("{:.12g}", x);
+    const std::string text = fmt::format("{:.{}g}", x, digits);
     std::from_chars(text.data(), text.data() + text.size(), to.emplace_back());
   }
 }
@@ -69,8 +71,16 @@ void add_hold_proof(const HoldProof& proof, const Pile& pile, const std::string&
   held.assign(proof.held.begin(), proof.held.end());
   const Pile rest = with_held(pile, proof.held);
   auto& displacement = numbers[state + ".displacement"];
-  for (std::size_t i = 0; i < rest.bodies.size(); ++i)
-    if (!rest.bodies[i].fixed) add_motion(proof.displacement[i], displacement);
+  Motions written(rest.bodies.size());
+  for (const int digits : {kDigits, kAllDigits}) {
+    displacement.clear();
+    for (std::size_t i = 0; i < rest.bodies.size(); ++i) {
+      if (rest.bodies[i].fixed) continue;
+      add_motion(proof.displacement[i], digits, displacement);
+      written[i] = motion_at(displacement, displacement.size() - kPerBody);
+    }
+    if (check_equilibrium(rest, spring_forces(rest, written)).empty()) break;
+  }
   auto& falls = numbers[state + ".falls"];
   for (const Motions& motion : proof.falls) add_fall(motion, falls);
 }
@@ -80,7 +90,7 @@ void add_fall(const Motions& motion, std::vector<double>& to) {
   for (std::size_t i = 0; i < motion.size(); ++i)
     if (moves(motion[i])) {
       to.push_back(static_cast<double>(i));
-      add_motion(motion[i], to);
+      add_motion(motion[i], kDigits, to);
     }
 }
 

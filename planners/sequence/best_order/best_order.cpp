@@ -122,17 +122,9 @@ class Rewriting {
   }
 
   /// Of the plan that is kept now.
-  double kept_cost() const {
-    std::vector<Removal> plan;
-    for (const auto& [removal, left] : keeper_.all) plan.push_back(removal);
-    return order::cost_of(plan, query_, context_);
-  }
+  double kept_cost() const { return order::cost_of(keeper_.removals(), query_, context_); }
   /// The plan that is kept now, around its largest part; empty: there is none.
-  std::vector<Removal> around_largest() {
-    std::vector<Removal> plan;
-    for (const auto& [removal, left] : keeper_.all) plan.push_back(removal);
-    return order::around_largest(plan, scene_);
-  }
+  std::vector<Removal> around_largest() { return order::around_largest(keeper_.removals(), scene_); }
 
   /// The same for the steps to a target. `solved`: those of the plan take it out.
   void run_to_target(SequenceResult& result, bool solved) {
@@ -369,10 +361,8 @@ SequenceResult BestOrder::plan(const SequenceQuery& query, PathOracle& oracle, S
     return result;
   }
   // The checks may depend on what the inner planner has announced only, which is what was recorded.
-  std::vector<Removal> plan;
-  for (const auto& [removal, left] : keeper.all) plan.push_back(removal);
   try {
-    Rewriting rewriting(params_, query, oracle, keeper, context, plan);
+    Rewriting rewriting(params_, query, oracle, keeper, context, keeper.removals());
     if (to_target)
       rewriting.run_to_target(result, is_success(result.outcome));
     else
@@ -380,12 +370,10 @@ SequenceResult BestOrder::plan(const SequenceQuery& query, PathOracle& oracle, S
   } catch (const CheckFailed& e) {
     context.log(LogLevel::error, std::string("the order is not improved, a step check failed: ") + e.what());
   }
-  result.removals.clear();
+  result.removals = keeper.removals();
   Disassembly done(query.assembly.parts.size(), query.start);
-  for (const auto& [removal, left] : keeper.all) {
-    done.add(step_of(removal));
-    result.removals.push_back(removal);
-  }
+  for (const Removal& removal : result.removals) done.add(step_of(removal));
+  order::drop_proofs_elsewhere(done, result.proofs);
   if (to_target && fulfilled(done, query.constraints)) {
     result.outcome = Outcome::solved;
     result.unsolved.clear();

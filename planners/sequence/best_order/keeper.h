@@ -25,6 +25,11 @@ class Keeper final : public SequenceObserver {
     all.resize(all.size() - count);
     return true;
   }
+  std::vector<Removal> removals() const {
+    std::vector<Removal> out;
+    for (const auto& [removal, left] : all) out.push_back(removal);
+    return out;
+  }
   std::vector<std::pair<Removal, std::size_t>> all;
 
  private:

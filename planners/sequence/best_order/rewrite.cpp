@@ -202,6 +202,59 @@ Removal straight_out(std::vector<PartId> parts, std::size_t direction, const std
   return removal;
 }
 
+namespace {
+
+bool same_pose(const Pose& a, const Pose& b) {
+  constexpr double kSamePlace = 1e-9;  // assembly units, and in radians
+  const Pose off = a.inverse() * b;
+  return off.t.norm() <= kSamePlace && off.q.vec().norm() <= kSamePlace;
+}
+
+/// Are these the parts, each moved by `shift`?
+bool moved_by(const Pose& shift, const std::vector<PlacedPart>& from, const std::vector<PlacedPart>& to) {
+  return std::equal(from.begin(), from.end(), to.begin(), to.end(), [&](const PlacedPart& a, const PlacedPart& b) {
+    return a.part == b.part && same_pose(shift * a.pose, b.pose);
+  });
+}
+
+/// A forced step of a group that has left to another place: the same motion there, with what was said of it.
+Removal forced_elsewhere(const Removal& planned, const Attempt& attempt, const Pose& shift, OrderScene& scene) {
+  const AttemptResult& then = *planned.attempt;
+  ForcingOracle* forcing = scene.oracle.forcing();
+  if (forcing == nullptr || !moved_by(shift, then.attempt.moving, attempt.moving) ||
+      !moved_by(shift, then.attempt.fixed, attempt.fixed))
+    return {};
+  Path path;
+  for (const auto& poses : then.path()) {
+    path.emplace_back();
+    for (const Pose& pose : poses) path.back().push_back(shift * pose);
+  }
+  for (std::size_t i = 0; i < attempt.moving.size(); ++i) path.front()[i] = attempt.moving[i].pose;
+  // A proof about the arrangement of that time is none for this one.
+  const Certificate* proof = then.forced->cut.certificate.get();
+  if (proof != nullptr && !proof->poses.empty()) proof = nullptr;
+  std::vector<Unsolved> said;
+  for (const PartId id : planned.parts)
+    said.push_back({id, Outcome::exhausted, {}, {}, then.forced->cut.reason, proof});
+  Removal removal = planned;
+  removal.attempt = &forcing->propose_forced(attempt, path, std::nullopt, said, scene.context);
+  return removal;
+}
+
+}  // namespace
+
+void drop_proofs_elsewhere(const Disassembly& done, std::vector<const Certificate*>& proofs) {
+  std::erase_if(proofs, [&](const Certificate* proof) {
+    if (proof->poses.empty()) return false;  // about parts as assembled
+    for (std::size_t k = 0; k <= done.steps().size(); ++k) {
+      std::size_t there = 0;
+      while (there < proof->parts.size() && same_pose(done.pose(proof->parts[there], k), proof->poses[there])) ++there;
+      if (there == proof->parts.size()) return false;
+    }
+    return true;
+  });
+}
+
 Removal verified(const Step& step, const Disassembly& now, OrderScene& scene, std::vector<PartId>& blocked_by) {
   const Motion* motion = step.segment == nullptr ? nullptr : &step.segment->motion(step.variant);
   const Removal* planned = motion == nullptr ? step.planned : motion->planned;
@@ -222,6 +275,7 @@ Removal verified(const Step& step, const Disassembly& now, OrderScene& scene, st
   const auto& from = planned != nullptr ? planned->attempt->attempt.moving : step.segment->start();
   const auto then = std::find_if(from.begin(), from.end(), [&](const PlacedPart& p) { return p.part == first.part; });
   const Pose shift = first.pose * then->pose.inverse();
+  if (planned != nullptr && planned->attempt->forced) return forced_elsewhere(*planned, attempt, shift, scene);
   Path path;
   Eigen::Vector3d out;
   if (motion != nullptr && motion->direction) {

@@ -36,6 +36,9 @@ struct StepsToTarget {
 };
 StepsToTarget steps_to_target(const std::vector<Removal>& plan, const SequenceQuery& query);
 
+/// Drops proofs about parts that lie nowhere in this disassembly as the proof has them: those of another order.
+void drop_proofs_elsewhere(const Disassembly& done, std::vector<const Certificate*>& proofs);
+
 /// Cost of a plan, as the engine judges it. `by_check`: without the weights, in the order of the objective.
 double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, const RunContext& context,
                std::vector<double>* by_check = nullptr);
