@@ -178,13 +178,16 @@ TEST_F(SessionTest, AForcedStepDoesNotKeepOthersFromABetterOrder) {
   add("tower", shapes::box({0, 0, 0}, {size.x(), size.y(), high}), beside);
   for (int i = 0; i < 2; ++i)
     add("upper" + std::to_string(i), plate, beside + Eigen::Vector3d(0, 0, high + i * size.z()));
-  const Session session({{}, {"run.threads=1", "run.path_steps=200", "objective=[identical_parts]"}, {}});
-  const LoadedAssembly loaded = session.load(InputParts{parts, "", {}, {}}, "boxes");
-  const Plan plan = session.plan(loaded).plan;
-  ASSERT_EQ(plan.status, PlanStatus::forced);
-  const PlanCheck check = session.verify(plan, *loaded.assembly);
-  EXPECT_TRUE(check.valid) << (check.problems.empty() ? std::string() : check.problems.front().message);
-  EXPECT_EQ(plan.objective.cost, 0);
+  for (const std::string force : {"last_resort", "off"}) {
+    const Session session(
+        {{}, {"run.threads=1", "run.path_steps=200", "objective=[identical_parts]", "run.force=" + force}, {}});
+    const LoadedAssembly loaded = session.load(InputParts{parts, "", {}, {}}, "boxes");
+    const Plan plan = session.plan(loaded).plan;
+    ASSERT_EQ(plan.status, force == "off" ? PlanStatus::partial : PlanStatus::forced);
+    const PlanCheck check = session.verify(plan, *loaded.assembly);
+    EXPECT_TRUE(check.valid) << (check.problems.empty() ? std::string() : check.problems.front().message);
+    EXPECT_EQ(plan.objective.cost, 0);
+  }
 }
 
 TEST_F(SessionTest, AJobShowsItsStepsAndStopsWhenItIsCancelled) {

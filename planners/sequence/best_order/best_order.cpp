@@ -370,10 +370,10 @@ SequenceResult BestOrder::plan(const SequenceQuery& query, PathOracle& oracle, S
   } catch (const CheckFailed& e) {
     context.log(LogLevel::error, std::string("the order is not improved, a step check failed: ") + e.what());
   }
-  result.removals = keeper.removals();
+  const std::vector<Removal> before = std::exchange(result.removals, keeper.removals());
   Disassembly done(query.assembly.parts.size(), query.start);
   for (const Removal& removal : result.removals) done.add(step_of(removal));
-  order::drop_proofs_elsewhere(done, result.proofs);
+  order::drop_what_is_elsewhere(before, done, query, result);
   if (to_target && fulfilled(done, query.constraints)) {
     result.outcome = Outcome::solved;
     result.unsolved.clear();

@@ -243,8 +243,9 @@ Removal forced_elsewhere(const Removal& planned, const Attempt& attempt, const P
 
 }  // namespace
 
-void drop_proofs_elsewhere(const Disassembly& done, std::vector<const Certificate*>& proofs) {
-  std::erase_if(proofs, [&](const Certificate* proof) {
+void drop_what_is_elsewhere(const std::vector<Removal>& before, const Disassembly& done, const SequenceQuery& query,
+                            SequenceResult& result) {
+  const auto is_elsewhere = [&](const Certificate* proof) {
     if (proof->poses.empty()) return false;  // about parts as assembled
     for (std::size_t k = 0; k <= done.steps().size(); ++k) {
       std::size_t there = 0;
@@ -252,7 +253,14 @@ void drop_proofs_elsewhere(const Disassembly& done, std::vector<const Certificat
       if (there == proof->parts.size()) return false;
     }
     return true;
-  });
+  };
+  std::erase_if(result.proofs, is_elsewhere);
+  Disassembly first(query.assembly.parts.size(), query.start);
+  for (const Removal& removal : before) first.add(step_of(removal));
+  for (Unsolved& u : result.unsolved) {
+    if (u.certificate != nullptr && is_elsewhere(u.certificate)) u.certificate = nullptr;  // the engine proves anew
+    if (!same_pose(first.pose(u.part), done.pose(u.part))) u.best_pose.clear();
+  }
 }
 
 Removal verified(const Step& step, const Disassembly& now, OrderScene& scene, std::vector<PartId>& blocked_by) {

@@ -36,8 +36,10 @@ struct StepsToTarget {
 };
 StepsToTarget steps_to_target(const std::vector<Removal>& plan, const SequenceQuery& query);
 
-/// Drops proofs about parts that lie nowhere in this disassembly as the proof has them: those of another order.
-void drop_proofs_elsewhere(const Disassembly& done, std::vector<const Certificate*>& proofs);
+/// Drops what is said about parts where they lie in no step of these: groups that leave in another order end elsewhere.
+/// `before`: the removals that `result` was made with.
+void drop_what_is_elsewhere(const std::vector<Removal>& before, const Disassembly& done, const SequenceQuery& query,
+                            SequenceResult& result);
 
 /// Cost of a plan, as the engine judges it. `by_check`: without the weights, in the order of the objective.
 double cost_of(const std::vector<Removal>& plan, const SequenceQuery& query, const RunContext& context,
