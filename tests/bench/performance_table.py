@@ -52,18 +52,18 @@ def median(runs, which):
 class Table:
     def __init__(self, arguments, folder):
         self.builds = [arguments.build] + ([arguments.against] if arguments.against else [])
-        self.repeat, self.folder, self.data = arguments.repeat, folder, arguments.data
+        self.repeat, self.folder, self.data, self.sizes = arguments.repeat, folder, arguments.data, arguments.sizes
 
     def program(self, build):
         return build / "bin/dismantle"
 
-    def plans(self, source, extra=()):
+    def plans(self, source, extra=(), threads=1):
         """Runs of each build."""
         runs = [[] for _ in self.builds]
         for _ in range(self.repeat):
             for k, build in enumerate(self.builds):
                 out = self.folder / f"plan{k}"
-                runs[k].append(run([self.program(build), "plan", source, "-o", out, "--threads", "1", *extra]))
+                runs[k].append(run([self.program(build), "plan", source, "-o", out, "--threads", threads, *extra]))
         return runs
 
     def figures(self, name, runs, which=0, digits=2):
@@ -81,7 +81,7 @@ class Table:
 
     def parts(self):
         self.head("Many parts")
-        for count in (1000, 3000, 10000):
+        for count in self.sizes:
             source = self.folder / f"machine_{count}"
             run([self.program(self.builds[0]), "sample", "machine", "--set", f"parts={count}", "-o", source])
             runs = self.plans(source)
@@ -95,7 +95,7 @@ class Table:
     def threads(self):
         self.head("Threads", "wall s of 1, of 2, ratio")
         for name, source in self.sources(FOR_THREADS):
-            one, two = self.plans(source), self.plans(source, ["--threads", "2"])
+            one, two = self.plans(source), self.plans(source, threads=2)
             cells = [f"{median(a, 1):.2f}, {median(b, 1):.2f}, {median(b, 1) / median(a, 1):.2f}" for a, b in zip(one, two)]
             print(f"| {name} | {' | '.join(reversed(cells))} |", flush=True)
 
@@ -128,7 +128,7 @@ class Table:
             done = subprocess.run([build / "tests/dismantle_bench", f"--benchmark_filter={KERNELS}", "--benchmark_format=json",
                                    f"--benchmark_repetitions={self.repeat}"], capture_output=True, text=True, check=True)
             for row in json.loads(done.stdout)["benchmarks"]:
-                if row.get("aggregate_name") == "median":
+                if row.get("aggregate_name") == "median" or self.repeat == 1:  # one run has no median
                     seconds = row.get("per_step", row.get("per_query"))
                     found[k][row["run_name"]] = 1e6 * seconds if seconds else float("nan")
         for name in found[0]:
@@ -141,10 +141,9 @@ def main():
     parser.add_argument("--against", type=pathlib.Path, help="another build folder: its figures are `before`")
     parser.add_argument("--data", default=os.environ.get("DISMANTLE_DATA"), type=lambda p: pathlib.Path(p) if p else None)
     parser.add_argument("--only", nargs="+", choices=SECTIONS, default=SECTIONS)
-    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--sizes", nargs="+", type=int, default=[1000, 3000, 10000], help="parts of the sample `machine`")
+    parser.add_argument("--repeat", type=int, default=3, help="the median counts")
     arguments = parser.parse_args()
-    if isinstance(arguments.data, str):
-        arguments.data = pathlib.Path(arguments.data)
     with tempfile.TemporaryDirectory() as folder:
         table = Table(arguments, pathlib.Path(folder))
         for section in arguments.only:

@@ -322,9 +322,10 @@ std::string Registry::missing_text(std::string_view what, const std::string& id,
     text += fmt::format("; no {} was found", what);
   else
     text += "; there are: " + listed(known);
-  if (id.find('.') != std::string::npos)  // of a third party
+  const std::string refused = refused_files_text(id);
+  if (refused.empty() && id.find('.') != std::string::npos)  // of a third party
     text += "; its plugin is not in the folders of DISMANTLE_PLUGIN_PATH, or of `plugins: {search_paths: [...]}`";
-  return text + refused_files_text(id);
+  return text + refused;
 }
 
 std::string Registry::why_missing(PluginKind kind, const std::string& id) const {
