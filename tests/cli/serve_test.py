@@ -235,6 +235,33 @@ class Serve(CliTest):
         self.run_program("verify", "in/blocks.plan/plan.json", "-q", status=0)
         self.ask("/api/undo", status=409, name="blocks")
 
+    def test_a_job_that_is_done_has_changed_all_that_is_told(self):
+        self.blocks()
+        for i in range(200):  # so that it takes a while to look through the folder, after the product
+            self.write(f"in/z{i}.obj", "")
+        moves, moved, stop, wrong = 4, [0], threading.Event(), []
+
+        def watch():
+            while not stop.is_set():
+                least = moved[0]
+                product = self.product("blocks")
+                if product["job"]["kind"] == "edit" and product["job"]["state"] == "done" and product["earlier"] < least:
+                    wrong.append((least, product["earlier"]))
+
+        watchers = [threading.Thread(target=watch) for _ in range(4)]
+        for w in watchers:
+            w.start()
+        try:
+            for i in range(moves):
+                self.ask("/api/move", name="blocks", step=4 if i % 2 == 0 else 2, **({"before": 2} if i % 2 == 0 else {"after": 4}))
+                moved[0] = i + 1
+                self.assertEqual(self.wait("blocks")["job"]["state"], "done")
+        finally:
+            stop.set()
+            for w in watchers:
+                w.join()
+        self.assertEqual(wrong, [])
+
     def test_a_move_that_is_not_possible_names_the_step_and_changes_nothing(self):
         self.run_program("sample", "stacked_box", "-o", "in/box", "-q", status=0)
         self.start()

@@ -105,6 +105,11 @@ std::optional<JobReport> Jobs::report(const std::string& product) const {
   return found == reports_.end() ? std::nullopt : std::optional(found->second);
 }
 
+std::map<std::string, JobReport> Jobs::reports() const {
+  const std::lock_guard lock(mutex_);
+  return reports_;
+}
+
 JobReport Jobs::work(const Job& job, const std::function<bool()>& should_stop) {
   std::string output;
   process::Program program{.command = job.command, .limits = {.wall = job.wall}};

@@ -48,6 +48,7 @@ class Jobs {
   bool cancel(const std::string& product);
   bool busy(const std::string& product) const;
   std::optional<JobReport> report(const std::string& product) const;
+  std::map<std::string, JobReport> reports() const;  ///< of all products
 
   /// Works until it should stop; a running job is then killed. The children belong to the thread that calls this.
   /// `begin` and `finish` are called before and after each job; `finish` with false when its result does not count.

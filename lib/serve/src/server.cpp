@@ -172,14 +172,15 @@ class Server::Impl {
     return *entry;
   }
 
-  nlohmann::json state_of(const Entry& entry) const {
+  /// `job` was read before `entry`: a job that is done has then changed all that is told of the product.
+  nlohmann::json state_of(const std::optional<JobReport>& job, const Entry& entry) const {
     nlohmann::json out = {{"name", entry.name},
                           {"file", entry.input.filename().string()},
                           {"has_plan", entry.has_plan},
                           {"earlier", entry.earlier},
                           {"has_book", folder_.plan_file(entry.name, "book.pdf").has_value()},
                           {"plan", folder_.summary(entry.name)}};
-    if (const auto report = jobs_.report(entry.name)) out["job"] = to_json(*report);
+    if (job) out["job"] = to_json(*job);
     return out;
   }
 
@@ -204,7 +205,11 @@ class Server::Impl {
     });
     http_.Get("/api/state", guarded([this](const Request&, Response& response) {
                 nlohmann::json products = nlohmann::json::array();
-                for (const Entry& entry : folder_.entries()) products.push_back(state_of(entry));
+                const std::map<std::string, JobReport> jobs = jobs_.reports();
+                for (const Entry& entry : folder_.entries()) {
+                  const auto job = jobs.find(entry.name);
+                  products.push_back(state_of(job == jobs.end() ? std::nullopt : std::optional(job->second), entry));
+                }
                 answer(response, {{"folder", folder_.path().filename().string()},
                                   {"products", products},
                                   {"extensions", folder_.extensions()},
@@ -212,8 +217,10 @@ class Server::Impl {
                                   {"timeout", settings_.timeout}});
               }));
     http_.Get("/api/product", guarded([this](const Request& request, Response& response) {
-                const Entry entry = entry_of(request.get_param_value("name"));
-                nlohmann::json out = state_of(entry);
+                const std::string name = request.get_param_value("name");
+                const auto job = jobs_.report(name);
+                const Entry entry = entry_of(name);
+                nlohmann::json out = state_of(job, entry);
                 try {
                   out.update(known_of(entry.name));
                 } catch (const Error& e) {
