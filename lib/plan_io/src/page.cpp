@@ -16,6 +16,7 @@
 #include "dismantle/plan_io/shading.h"
 #include "dismantle/plan_io/summary.h"
 #include "page_view.h"
+#include "steps/fewer_poses.h"
 
 namespace dismantle {
 namespace {
@@ -118,14 +119,16 @@ std::string for_script(const std::string& json) {
   return out;
 }
 
-/// The plan without proofs of holds, which the page does not show.
-std::string drawn_json(Plan plan) {
+/// The plan as the page has it: with the poses that it draws, without proofs of holds, which it does not show.
+Plan drawn_plan(Plan plan) {
   for (std::vector<PlanStep>* steps : {&plan.disassembly, &plan.assembly_steps})
-    for (PlanStep& step : *steps)
+    for (PlanStep& step : *steps) {
+      leave_out_poses(step);
       for (PlanVerdict& verdict : step.checks) verdict.certificate.reset();
+    }
   for (PlanObjectiveItem& item : plan.objective.checks)
     if (item.plan) item.plan->certificate.reset();
-  return to_json(plan);
+  return plan;
 }
 
 }  // namespace
@@ -136,7 +139,8 @@ std::string to_page(const Plan& plan, const Assembly& assembly, const std::strin
   const std::size_t place = page_template.find(mark);
   if (place == std::string::npos || page_template.find(mark, place + 1) != std::string::npos)
     throw Error("the viewer's template does not have exactly one place for the data");
-  std::string data = "{\"format\":\"dismantle.page\",\"version\":2,\"plan\":" + drawn_json(plan);
+  const Plan drawn = drawn_plan(plan);
+  std::string data = "{\"format\":\"dismantle.page\",\"version\":2,\"plan\":" + to_json(drawn);
   const auto add = [&](const char* key, const PageJson& value) {
     data += key + value.dump(-1, ' ', false, PageJson::error_handler_t::replace);
   };
@@ -145,7 +149,7 @@ std::string to_page(const Plan& plan, const Assembly& assembly, const std::strin
   PartShapes shapes;
   for (const PageJson& part : geometry["parts"]) shapes.push_back(part["shape"].get<std::size_t>());
   add(",\"geometry\":", geometry);
-  add(",\"view\":", page_view(plan, assembly, shapes, settings));
+  add(",\"view\":", page_view(plan, drawn, assembly, shapes, settings));
   data += "}";
   return page_template.substr(0, place) + for_script(data) + page_template.substr(place + mark.size());
 }

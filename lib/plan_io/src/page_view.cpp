@@ -106,11 +106,11 @@ ViewJson account_json(const Plan& plan) {
 
 }  // namespace
 
-ViewJson page_view(const Plan& plan, const Assembly& assembly, const PartShapes& shapes,
+ViewJson page_view(const Plan& plan, const Plan& drawn, const Assembly& assembly, const PartShapes& shapes,
                    const ExplainSettings& settings) {
   const PlanHistory history(plan);
-  const Timeline disassembly = timeline(plan.disassembly, assembly, disassembly_ups(plan));
-  const Timeline together = timeline(plan.assembly_steps, assembly, assembly_ups(plan));
+  const Timeline disassembly = timeline(drawn.disassembly, assembly, disassembly_ups(plan));
+  const Timeline together = timeline(drawn.assembly_steps, assembly, assembly_ups(plan));
   const Explanation why = explain(plan, settings);
   ViewJson untried = ViewJson::array();
   for (const std::string& name : why.untried) untried.push_back(history.index_of(name));

@@ -11,8 +11,9 @@
 namespace dismantle {
 
 /// `view` of a page (docs/viewer.md): times, runs of steps, presence, exploded view, reasons and advice.
+/// `drawn`: the same plan with the poses that the page has. Times are those of its poses.
 /// @throws InputError when the plan names a part that the assembly does not have.
-nlohmann::ordered_json page_view(const Plan& plan, const Assembly& assembly, const PartShapes& shapes,
-                                 const ExplainSettings& settings);
+nlohmann::ordered_json page_view(const Plan& plan, const Plan& drawn, const Assembly& assembly,
+                                 const PartShapes& shapes, const ExplainSettings& settings);
 
 }  // namespace dismantle

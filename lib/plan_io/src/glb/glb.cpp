@@ -6,6 +6,7 @@
 #include "dismantle/plan_io/animation.h"
 #include "dismantle/plan_io/explode.h"
 #include "glb/glb_scene.h"
+#include "steps/fewer_poses.h"
 #include "steps/timeline.h"
 
 namespace dismantle {
@@ -64,7 +65,10 @@ std::vector<std::uint8_t> to_glb(const Plan& plan, const Assembly& assembly, con
   GlbJson animations = GlbJson::array();
   const auto add_animation = [&](const char* name, const std::vector<PlanStep>& steps, const StepUps& ups) {
     GlbJson samplers = GlbJson::array(), channels = GlbJson::array();
-    const Timeline line = timeline(steps, assembly, ups);
+    std::vector<PlanStep> drawn;
+    drawn.reserve(steps.size());
+    for (const PlanStep& step : steps) drawn.push_back(drawn_step(step));
+    const Timeline line = timeline(drawn, assembly, ups);
     for (const Track& track : line.tracks) animate(track, scene, clocks, samplers, channels);
     if (channels.empty()) return;
     animations.push_back({{"name", name},
