@@ -11,6 +11,7 @@
 #include <span>
 #include <utility>
 
+#include "dismantle/executor.h"
 #include "dismantle/part_set.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "to_plan.h"
@@ -90,22 +91,34 @@ class Present {
   std::vector<std::optional<std::vector<PlacedPart>>> lists_;  // by group; ascending
 };
 
-/// Operations are made one after the other: each holds all parts that are present.
+/// The steps are judged on all threads of the run, some operations at a time: each holds all parts that are present.
 std::vector<Judged> judge_with(const std::vector<Asked>& checks, const Disassembly& done, const Assembly& assembly,
                                const Eigen::Vector3d& up, const RunContext& context) {
+  constexpr std::size_t kAtOnce = 64;
+  const std::size_t count = done.steps().size();
   std::vector<Judged> judged(checks.size());
+  for (Judged& j : judged) j.steps.resize(count);
   std::optional<Operation> before;
   Present present(done);
-  for (std::size_t k = done.steps().size(); k-- > 0;) {
-    std::optional<Operation> now(present.operation(k, assembly, up));
-    const std::optional<StepQuestion> earlier = before ? std::optional(before->question()) : std::nullopt;
-    const StepQuestion question = now->question(earlier ? &*earlier : nullptr);
-    for (std::size_t c = 0; c < checks.size(); ++c)
-      judged[c].steps.push_back(
-          verdict_of(checks[c].item, assembly, [&] { return checks[c].check.judge(question, context); }));
-    before.emplace(std::move(*now));
+  for (std::size_t end = count; end > 0;) {
+    const std::size_t begin = end - std::min(end, kAtOnce);
+    std::deque<Operation> operations;  // in the order of assembly: of step end - 1, ..., begin
+    for (std::size_t k = end; k-- > begin;) operations.push_back(present.operation(k, assembly, up));
+    const auto previous = [&](std::size_t i) {
+      if (i > 0) return std::optional(operations[i - 1].question());
+      return before ? std::optional(before->question()) : std::nullopt;
+    };
+    const auto judge_operation = [&](std::size_t i) {
+      const std::optional<StepQuestion> earlier = previous(i);
+      const StepQuestion question = operations[i].question(earlier ? &*earlier : nullptr);
+      for (std::size_t c = 0; c < checks.size(); ++c)
+        judged[c].steps[end - 1 - i] =
+            verdict_of(checks[c].item, assembly, [&] { return checks[c].check.judge(question, context); });
+    };
+    parallel_for(operations.size(), context, judge_operation, [] { return false; });
+    before.emplace(std::move(operations.back()));
+    end = begin;
   }
-  for (Judged& j : judged) std::reverse(j.steps.begin(), j.steps.end());
   std::optional<WholePlan> whole;
   for (std::size_t c = 0; c < checks.size(); ++c) {
     if (!checks[c].check.traits().judges_plan) continue;

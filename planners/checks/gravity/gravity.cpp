@@ -155,11 +155,11 @@ Gravity::State Gravity::holds_of(Scene& scene, const statics::BuiltPile& built, 
 }
 
 Gravity::StatePtr Gravity::at_rest(Scene& scene, const Assembly& assembly, std::span<const PlacedPart> placed,
-                                   const Vec3& up, bool table) const {
+                                   const Vec3& up, bool table, const RunContext& context) const {
   const std::vector<PlacedPart> parts = statics::where_assembled({placed.begin(), placed.end()});
   std::vector<double> key{up.x(), up.y(), up.z(), table ? 1.0 : 0.0};
   add_key(parts, key);
-  return kept(scene.at_rest, std::move(key), [&] {
+  return kept(scene.at_rest, std::move(key), context, [&] {
     State state;
     const auto balanced = [&](Gaps gaps) {
       const statics::Pile pile = scene.piles->pile(parts, up, gaps, table).pile;
@@ -177,7 +177,7 @@ Gravity::StatePtr Gravity::at_rest(Scene& scene, const Assembly& assembly, std::
 }
 
 /// What the present parts need while the new one is pressed in, and while it is pulled back a little.
-Gravity::StatePtr Gravity::while_put_in(Scene& scene, const StepQuestion& question) const {
+Gravity::StatePtr Gravity::while_put_in(Scene& scene, const StepQuestion& question, const RunContext& context) const {
   if (question.present.empty() || question.direction.isZero()) return std::make_shared<const State>();
   const std::vector<PlacedPart> present = joined(question.present, {});
   const Vec3 &up = question.up, &along = question.direction;
@@ -185,13 +185,14 @@ Gravity::StatePtr Gravity::while_put_in(Scene& scene, const StepQuestion& questi
   add_key(question.moving, key);
   key.push_back(-2);  // neither an id nor the mark of a pose
   add_key(present, key);
-  return kept(scene.while_put_in, std::move(key), [&] { return pressed_and_pulled(scene, question, present); });
+  return kept(scene.while_put_in, std::move(key), context,
+              [&] { return pressed_and_pulled(scene, question, present, context); });
 }
 
 /// What holds them at rest is taken first: usually it is enough. The forces of rest are near those of a small push.
 Gravity::StatePtr Gravity::pressed_and_pulled(Scene& scene, const StepQuestion& question,
-                                              const std::vector<PlacedPart>& parts) const {
-  const StatePtr rest = at_rest(scene, question.assembly, parts, question.up, true);
+                                              const std::vector<PlacedPart>& parts, const RunContext& context) const {
+  const StatePtr rest = at_rest(scene, question.assembly, parts, question.up, true, context);
   StatePtr worst = rest;
   const statics::BuiltPile alone = scene.piles->pile(parts, question.up, Gaps::play);
   const bool same_bodies = rest->displacement.size() == alone.pile.bodies.size();
@@ -248,12 +249,12 @@ StepVerdict Gravity::judge(const StepQuestion& question, const RunContext& conte
   const std::vector<PlacedPart> all = joined(question.present, question.moving);
   if (all.size() > static_cast<std::size_t>(params_.most_parts)) return estimate(question, context);
   const std::shared_ptr<Scene> scene = scene_of(assembly);
-  const StatePtr at_rest_after = at_rest(*scene, assembly, all, question.up, true);
-  const StatePtr put_in = while_put_in(*scene, question);
+  const StatePtr at_rest_after = at_rest(*scene, assembly, all, question.up, true, context);
+  const StatePtr put_in = while_put_in(*scene, question, context);
   StatePtr while_turned = std::make_shared<const State>();
   if (question.previous != nullptr && !question.present.empty() && question.previous->up.dot(question.up) < 1 - kSameUp)
     while_turned = at_rest(*scene, assembly, joined(question.present, {}),
-                           statics::up_while_turned(question.previous->up, question.up), false);
+                           statics::up_while_turned(question.previous->up, question.up), false, context);
   const State &after = *at_rest_after, &during = *put_in, &turned = *while_turned;
   StepVerdict verdict;
   verdict.certificate = proof_of(all, after, during, turned, scene->piles->gap(after.gaps));

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "dismantle/computed_once.h"
 #include "dismantle/parameters.h"
 #include "dismantle/statics/built.h"
 #include "dismantle/statics/hands_bound.h"
@@ -61,9 +62,11 @@ class Gravity final : public StepCheck {
     std::string picture;            // picture_json(); empty: nothing is held
   };
   using StatePtr = std::shared_ptr<const State>;
+  /// By everything that they depend on.
+  using KnownStates = std::map<std::vector<double>, std::shared_ptr<ComputedOnce<StatePtr>>>;
   struct Scene {
     std::unique_ptr<const statics::BuiltPiles> piles;
-    std::map<std::vector<double>, StatePtr> at_rest, while_put_in;  // by everything that they depend on
+    KnownStates at_rest, while_put_in;
     statics::KnownJudgements judgements;
     std::set<std::vector<double>> bound_of;  // what the bound was asked about last: units and orientations
     std::shared_ptr<const statics::HandsBound> bound;
@@ -74,22 +77,24 @@ class Gravity final : public StepCheck {
   State holds_of(Scene& scene, const statics::BuiltPile& built, std::span<const PlacedPart> parts,
                  const Assembly& assembly) const;
   StatePtr at_rest(Scene& scene, const Assembly& assembly, std::span<const PlacedPart> parts, const Eigen::Vector3d& up,
-                   bool table) const;
+                   bool table, const RunContext& context) const;
   static std::optional<Certificate> proof_of(std::span<const PlacedPart> parts, const State& after, const State& during,
                                              const State& turned, double gap);
   std::shared_ptr<const statics::HandsBound> bound_of(std::span<const StepQuestion> operations) const;
-  StatePtr while_put_in(Scene& scene, const StepQuestion& question) const;
-  StatePtr pressed_and_pulled(Scene& scene, const StepQuestion& question, const std::vector<PlacedPart>& present) const;
-  /// What `known` has; otherwise `find()`, which is kept.
+  StatePtr while_put_in(Scene& scene, const StepQuestion& question, const RunContext& context) const;
+  StatePtr pressed_and_pulled(Scene& scene, const StepQuestion& question, const std::vector<PlacedPart>& present,
+                              const RunContext& context) const;
+  /// What `known` has; otherwise `find()`, which is kept. Threads that ask meanwhile wait.
   template <class Find>
-  StatePtr kept(std::map<std::vector<double>, StatePtr>& known, std::vector<double> key, const Find& find) const {
+  StatePtr kept(KnownStates& known, std::vector<double> key, const RunContext& context, const Find& find) const {
+    std::shared_ptr<ComputedOnce<StatePtr>> once;
     {
       const std::lock_guard lock(mutex_);
-      if (const auto at = known.find(key); at != known.end()) return at->second;
+      auto& at = known[std::move(key)];
+      if (!at) at = std::make_shared<ComputedOnce<StatePtr>>();
+      once = at;
     }
-    StatePtr found = find();
-    const std::lock_guard lock(mutex_);
-    return known.emplace(std::move(key), std::move(found)).first->second;
+    return *once->get(context, [&] { return std::optional<StatePtr>(find()); });
   }
 
   GravityParameters params_;

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "best_order/verdicts_in_order.h"
 #include "dismantle/part_set.h"
 
 namespace dismantle::order {
@@ -108,18 +109,19 @@ double sum_of(const std::vector<Removal>& plan, const SequenceQuery& query, cons
   for (const Operation& o : operations) alone.push_back(o.question());
   for (std::size_t k = 0; k < operations.size(); ++k)
     questions.push_back(operations[k].question(k == 0 ? nullptr : &alone[k - 1]));
-  double sum = 0;
   const std::vector<ObjectiveItem>& items = query.objective.items;
   if (by_check != nullptr) by_check->assign(items.size(), 0);
+  const std::size_t asked = (questions.size() + options.every - 1) / options.every;
   try {
-    for (std::size_t k = 0; k < questions.size(); k += options.every) {
-      const ObjectiveVerdict verdict = ask(questions[k]);
-      if (verdict.refused && by_check != nullptr) by_check->clear();
-      if (verdict.refused) return kForbidden;
-      sum += static_cast<double>(options.every) * verdict.cost;
-      if (sum > options.most) return sum;
-      for (std::size_t i = 0; by_check != nullptr && i < items.size(); ++i) (*by_check)[i] += verdict.verdicts[i].cost;
+    VerdictsInOrder verdicts(asked, options.most, static_cast<double>(options.every));
+    verdicts.find(context, [&](std::size_t k) { return ask(questions[k * options.every]); });
+    double sum = verdicts.sum();
+    if (verdicts.decided()) {
+      if (by_check != nullptr) by_check->clear();
+      return sum;
     }
+    for (std::size_t k = 0; by_check != nullptr && k < asked; ++k)
+      for (std::size_t i = 0; i < items.size(); ++i) (*by_check)[i] += verdicts[k].verdicts[i].cost;
     const std::vector<StepQuestion> all(questions.begin(), questions.end());
     for (std::size_t i = 0; i < items.size(); ++i) {
       if (!items[i].check->traits().judges_plan) continue;
@@ -127,10 +129,10 @@ double sum_of(const std::vector<Removal>& plan, const SequenceQuery& query, cons
       sum += items[i].weight * cost;
       if (by_check != nullptr) (*by_check)[i] += cost;
     }
+    return sum;
   } catch (const std::exception& e) {
     throw CheckFailed(e.what());
   }
-  return sum;
 }
 
 }  // namespace
