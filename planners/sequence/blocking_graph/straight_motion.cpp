@@ -98,8 +98,12 @@ bool StraightMotion::was_refused(const Subassemblies& ids, std::size_t direction
 
 /// Cached, because every subassembly asks for its directions: visiting all others each time would be quadratic.
 const StraightMotion::FarEnd& StraightMotion::far_end(const GroupState& group, std::size_t direction) const {
-  if (far_ends_.arrangement != state_.arrangement() || far_ends_.members != group.members)
-    far_ends_ = {state_.arrangement(), group.members, {}};
+  const bool same_arrangement = far_ends_.arrangement == state_.arrangement();
+  if (!same_arrangement || far_ends_.group != group.id) {  // a group is the same as long as nothing moves
+    if (!same_arrangement || far_ends_.members != group.members)
+      far_ends_ = {state_.arrangement(), {}, group.members, {}};
+    far_ends_.group = group.id;
+  }
   const auto [at, is_new] = far_ends_.by_direction.try_emplace(direction);
   FarEnd& far = at->second;
   if (!is_new) return far;
@@ -130,6 +134,7 @@ void StraightMotion::keep_far_ends(const GroupChange& change) {
     return std::find(change.moved.begin(), change.moved.end(), u) != change.moved.end();
   };
   far_ends_.arrangement = state_.arrangement();
+  far_ends_.group.reset();
   std::erase_if(far_ends_.members, has_left);
   std::erase_if(far_ends_.by_direction,
                 [&](const auto& entry) { return has_left(entry.second.farthest) || has_left(entry.second.next); });

@@ -115,6 +115,7 @@ class StraightMotion final : public GroupListener {
   std::set<std::pair<std::vector<PartId>, std::size_t>> refused_;  // since the last change
   struct {
     std::uint64_t arrangement = 0;
+    std::optional<std::size_t> group;  // that has these members in this arrangement; none: not known
     Subassemblies members;
     std::map<std::size_t, FarEnd> by_direction;
   } mutable far_ends_;  // of the last group that was asked about, in the last arrangement
