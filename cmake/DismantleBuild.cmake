@@ -19,7 +19,9 @@ set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN;$ORIGIN/../.
 
 find_program(DISMANTLE_CCACHE ccache)
 if(DISMANTLE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${DISMANTLE_CCACHE})
+  # Relative to the source folder, so that another clone takes from the cache what this one has compiled.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
+    "CCACHE_BASEDIR=${CMAKE_SOURCE_DIR}" ${DISMANTLE_CCACHE})
 endif()
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)

@@ -13,6 +13,8 @@ set(dismantle "${WORK_DIR}/dismantle/bin/dismantle")
 set(launcher "")
 if(CCACHE)
   set(launcher "-DCMAKE_CXX_COMPILER_LAUNCHER=${CCACHE}")
+  get_filename_component(root "${SOURCE_DIR}/../.." ABSOLUTE)
+  set(ENV{CCACHE_BASEDIR} "${root}")  # what another clone has compiled is the same
 endif()
 function(build source name)
   run(ignored ${CMAKE_COMMAND} -S "${source}" -B "${WORK_DIR}/${name}" -G "${GENERATOR}"
