@@ -259,9 +259,7 @@ class PythonSequencePlanner final : public SequencePlanner {
   bool keeps_constraints_ = false;
 };
 
-}  // namespace
-
-void bind_sequence_planner(py::module_& m) {
+void bind_answer(py::module_& m) {
   py::class_<Answer>(m, "Answer",
                      "An answer of the oracle. True in a condition when the parts can leave. Assembly units.")
       .def("__bool__", [](const Answer& a) { return is_success(a.get().result.outcome()); })
@@ -295,6 +293,12 @@ void bind_sequence_planner(py::module_& m) {
             return proof == nullptr ? py::object(py::none()) : py::str(proof->text);
           },
           "Why it is proved that the parts cannot leave, in words; None: it is not proved.");
+}
+
+}  // namespace
+
+void bind_sequence_planner(py::module_& m) {
+  bind_answer(m);
   py::class_<SequenceView, std::shared_ptr<SequenceView>>(
       m, "Oracle",
       "All that a sequence planner sees of geometry: can these parts leave while those stay? It remembers answers, and "
