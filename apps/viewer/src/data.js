@@ -20,7 +20,7 @@ function readShape(shape) {
 }
 
 function readView({up, leavers, account, steps, runs, animations, parts, reasons, untried}) {
-  const animation = ({duration, times}) => ({duration, times: array(Float32Array, times)});
+  const animation = ({duration, times, poses}) => ({duration, times: array(Float32Array, times), poses: array(Uint32Array, poses)});
   return {
     up, leavers, account, steps, runs, reasons, untried,
     animations: {disassembly: animation(animations.disassembly), assembly: animation(animations.assembly)},

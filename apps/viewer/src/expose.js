@@ -1,3 +1,5 @@
+import {timeOfPose} from './plan/animation.js';
+
 // window.dismantle: the interface for tests and scripts. Names are part names, times are seconds, points are input coordinates.
 export function expose(app, display) {
   const {model} = app;
@@ -14,8 +16,8 @@ export function expose(app, display) {
     loadedAfter: null,  // ms from the start of navigation to the first picture
     partNames: () => model.parts.map(p => p.name),
     duration: (mode = app.mode) => model.lines[mode].duration,
-    /** Time at which pose `k` of step `step` (index in the plan) is reached. */
-    timeOf: (mode, step, k) => model.lines[mode].steps.find(s => s.step === stepsOf(mode)[step]).times[k],
+    /** Time at which pose `k` (of plan.json) of step `step` (index in the plan) is reached. */
+    timeOf: (mode, step, k) => timeOfPose(model.lines[mode].steps.find(s => s.step === stepsOf(mode)[step]), k),
     /** Pose [x, y, z, qw, qx, qy, qz] as defined in docs/plan-format.md. */
     poseOf: (name, time, mode = app.mode) => Array.from(model.poseOf(index(name), mode, time, new Float64Array(7))),
     /** Position at which a point of a part is drawn now. */

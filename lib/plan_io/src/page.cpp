@@ -16,7 +16,6 @@
 #include "dismantle/plan_io/shading.h"
 #include "dismantle/plan_io/summary.h"
 #include "page_view.h"
-#include "steps/fewer_poses.h"
 
 namespace dismantle {
 namespace {
@@ -119,18 +118,6 @@ std::string for_script(const std::string& json) {
   return out;
 }
 
-/// The plan as the page has it: with the poses that it draws, without proofs of holds, which it does not show.
-Plan drawn_plan(Plan plan) {
-  for (std::vector<PlanStep>* steps : {&plan.disassembly, &plan.assembly_steps})
-    for (PlanStep& step : *steps) {
-      leave_out_poses(step);
-      for (PlanVerdict& verdict : step.checks) verdict.certificate.reset();
-    }
-  for (PlanObjectiveItem& item : plan.objective.checks)
-    if (item.plan) item.plan->certificate.reset();
-  return plan;
-}
-
 }  // namespace
 
 std::string to_page(const Plan& plan, const Assembly& assembly, const std::string& page_template,
@@ -139,8 +126,8 @@ std::string to_page(const Plan& plan, const Assembly& assembly, const std::strin
   const std::size_t place = page_template.find(mark);
   if (place == std::string::npos || page_template.find(mark, place + 1) != std::string::npos)
     throw Error("the viewer's template does not have exactly one place for the data");
-  const Plan drawn = drawn_plan(plan);
-  std::string data = "{\"format\":\"dismantle.page\",\"version\":2,\"plan\":" + to_json(drawn);
+  const DrawnPlan drawn(plan);
+  std::string data = "{\"format\":\"dismantle.page\",\"version\":2,\"plan\":" + to_json(drawn.plan);
   const auto add = [&](const char* key, const PageJson& value) {
     data += key + value.dump(-1, ' ', false, PageJson::error_handler_t::replace);
   };

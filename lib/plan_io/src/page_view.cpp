@@ -17,6 +17,7 @@
 #include "dismantle/plan_io/plan_history.h"
 #include "explain/reach.h"
 #include "page_steps.h"
+#include "steps/fewer_poses.h"
 #include "steps/timeline.h"
 
 namespace dismantle {
@@ -24,10 +25,10 @@ namespace {
 
 using ViewJson = nlohmann::ordered_json;
 
-ViewJson animation_json(const Timeline& line) {
+ViewJson animation_json(const Timeline& line, const std::vector<std::uint32_t>& poses) {
   std::vector<float> times;
   for (const StepTime& step : line.steps) times.insert(times.end(), step.pose_times.begin(), step.pose_times.end());
-  return {{"duration", line.duration}, {"times", base64_of(times)}};
+  return {{"duration", line.duration}, {"times", base64_of(times)}, {"poses", base64_of(poses)}};
 }
 
 /// When each step of the plan is over: the end of the last motion up to it.
@@ -106,11 +107,21 @@ ViewJson account_json(const Plan& plan) {
 
 }  // namespace
 
-ViewJson page_view(const Plan& plan, const Plan& drawn, const Assembly& assembly, const PartShapes& shapes,
+DrawnPlan::DrawnPlan(const Plan& whole) : plan(whole) {
+  for (auto [steps, numbers] : {std::pair(&plan.disassembly, &disassembly), std::pair(&plan.assembly_steps, &assembly)})
+    for (PlanStep& step : *steps) {
+      for (const std::size_t k : leave_out_poses(step)) numbers->push_back(static_cast<std::uint32_t>(k));
+      for (PlanVerdict& verdict : step.checks) verdict.certificate.reset();
+    }
+  for (PlanObjectiveItem& item : plan.objective.checks)
+    if (item.plan) item.plan->certificate.reset();
+}
+
+ViewJson page_view(const Plan& plan, const DrawnPlan& drawn, const Assembly& assembly, const PartShapes& shapes,
                    const ExplainSettings& settings) {
   const PlanHistory history(plan);
-  const Timeline disassembly = timeline(drawn.disassembly, assembly, disassembly_ups(plan));
-  const Timeline together = timeline(drawn.assembly_steps, assembly, assembly_ups(plan));
+  const Timeline disassembly = timeline(drawn.plan.disassembly, assembly, disassembly_ups(plan));
+  const Timeline together = timeline(drawn.plan.assembly_steps, assembly, assembly_ups(plan));
   const Explanation why = explain(plan, settings);
   ViewJson untried = ViewJson::array();
   for (const std::string& name : why.untried) untried.push_back(history.index_of(name));
@@ -120,7 +131,9 @@ ViewJson page_view(const Plan& plan, const Plan& drawn, const Assembly& assembly
           {"account", account_json(plan)},
           {"steps", page_steps(plan)},
           {"runs", page_runs(plan, step_runs(plan, shapes))},
-          {"animations", {{"disassembly", animation_json(disassembly)}, {"assembly", animation_json(together)}}},
+          {"animations",
+           {{"disassembly", animation_json(disassembly, drawn.disassembly)},
+            {"assembly", animation_json(together, drawn.assembly)}}},
           {"parts", parts_json(plan, assembly, history, disassembly, together)},
           {"reasons", reasons_json(why, assembly, history)},
           {"untried", std::move(untried)}};

@@ -36,25 +36,34 @@ export class Track {
 
 /**
  * @param steps `disassembly` or `assembly_steps` of a plan
- * @param animation {duration, times}: a time for each pose of the steps that move something, in their order
+ * @param animation {duration, times, poses}: a time for each pose of the steps that move something, in their order, and its number in plan.json
  * @param index part index by name
- * @returns {tracks, steps, duration}: a Track or null per part index; the steps that move something, with their index in the plan, times and parts
+ * @returns {tracks, steps, duration}: a Track or null per part index; the steps that move something, with their index in the plan, times and numbers of poses, and parts
  */
-export function readAnimation(steps, {duration, times: all}, index) {
+export function readAnimation(steps, {duration, times: all, poses: every}, index) {
   const keys = Array.from({length: index.size}, () => ({times: [], poses: []})), out = [];
   let used = 0;
   for (const [at, step] of steps.entries()) {
     if (step.moves.length === 0) continue;
-    const times = all.subarray(used, used += step.moves[0].poses.length), parts = step.moves.map(move => index.get(move.part));
+    const from = used, times = all.subarray(from, used += step.moves[0].poses.length), numbers = every.subarray(from, used);
+    const parts = step.moves.map(move => index.get(move.part));
     step.moves.forEach(({poses}, m) => {
       const key = keys[parts[m]];
       key.times.push(...times);
       for (const pose of poses) key.poses.push(...pose);
     });
-    out.push({step, index: at, begin: times[0], end: times[times.length - 1], times, parts});
+    out.push({step, index: at, begin: times[0], end: times[times.length - 1], times, numbers, parts});
   }
-  if (used !== all.length) throw new Error('the times in this page are not those of its plan');
+  if (used !== all.length || used !== every.length) throw new Error('the times in this page are not those of its plan');
   return {tracks: keys.map(({times, poses}) => times.length > 0 ? new Track(times, poses) : null), steps: out, duration};
+}
+
+/** Time at which a step of readAnimation() reaches pose `k` of plan.json: those that the page leaves out are equally far apart. */
+export function timeOfPose({times, numbers}, k) {
+  let i = 0;
+  while (i + 2 < numbers.length && numbers[i + 1] <= k) ++i;
+  if (numbers[i] === k || numbers.length === 1) return times[i];
+  return times[i] + (times[i + 1] - times[i]) * (k - numbers[i]) / (numbers[i + 1] - numbers[i]);
 }
 
 /** Index of the step that runs at `time`, or of the last one before; -1 before the first step. */

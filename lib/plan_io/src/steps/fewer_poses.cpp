@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <vector>
 
 namespace dismantle {
 namespace {
 
 constexpr std::size_t kStretches = 16;  // at least so many of the poses of a step are kept
-constexpr double kStraight = 1e-6;      // off the line, of the length of the stretch: not to be seen
+constexpr double kStraight = 1e-6;      // difference of displacements, of their length: not to be seen
 
 /// Translations of all parts from pose `a` to pose `b`, below each other. Empty: a part turns, or none moves.
 Eigen::VectorXd translations(const std::vector<PlanMove>& moves, std::size_t a, std::size_t b) {
@@ -24,24 +25,23 @@ Eigen::VectorXd translations(const std::vector<PlanMove>& moves, std::size_t a, 
 
 }  // namespace
 
-void leave_out_poses(PlanStep& step) {
-  if (step.moves.empty() || step.forced) return;
-  const std::size_t count = step.moves.front().poses.size();
+std::vector<std::size_t> leave_out_poses(PlanStep& step) {
+  const std::size_t count = step.moves.empty() ? 0 : step.moves.front().poses.size();
   const bool same_count = std::all_of(step.moves.begin(), step.moves.end(),
                                       [&](const PlanMove& move) { return move.poses.size() == count; });
-  if (!same_count || count < 3) return;
+  std::vector<std::size_t> kept(count);
+  std::iota(kept.begin(), kept.end(), 0U);
+  if (step.forced || !same_count || count < 3) return kept;
   const std::size_t longest = std::max<std::size_t>(1, count / kStretches);
-  std::vector<std::size_t> kept{0};
-  Eigen::VectorXd along = translations(step.moves, 0, 1);  // of the stretch from the last kept pose on
-  if (along.size() > 0) along.normalize();
+  kept = {0};
+  Eigen::VectorXd first = translations(step.moves, 0, 1);  // of the stretch that begins at the last kept pose
   for (std::size_t k = 1; k + 1 < count; ++k) {
     const Eigen::VectorXd next = translations(step.moves, k, k + 1);
-    const bool straight = along.size() > 0 && next.size() > 0 &&
-                          (next - next.dot(along) * along).norm() <= kStraight * next.norm() && next.dot(along) > 0;
-    if (straight && k != step.transfer && k - kept.back() < longest) continue;
+    const bool goes_on =
+        first.size() > 0 && next.size() == first.size() && (next - first).norm() <= kStraight * first.norm();
+    if (goes_on && k != step.transfer && k - kept.back() < longest) continue;
     kept.push_back(k);
-    along = next;
-    if (along.size() > 0) along.normalize();
+    first = next;
   }
   kept.push_back(count - 1);
   step.transfer = static_cast<std::size_t>(std::lower_bound(kept.begin(), kept.end(), step.transfer) - kept.begin());
@@ -51,6 +51,7 @@ void leave_out_poses(PlanStep& step) {
     for (const std::size_t k : kept) poses.push_back(move.poses[k]);
     move.poses = std::move(poses);
   }
+  return kept;
 }
 
 PlanStep drawn_step(const PlanStep& step) {
