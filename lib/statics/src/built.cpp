@@ -37,7 +37,8 @@ std::pair<std::string, std::string> kind_of(const Part& part) {
 
 }  // namespace
 
-BuiltPiles::BuiltPiles(const Assembly& assembly, StabilityOptions options) : options_(std::move(options)) {
+BuiltPiles::BuiltPiles(const Assembly& assembly, StabilityOptions options)
+    : options_(std::move(options)), shape_once_(assembly.parts.size()) {
   const std::size_t count = assembly.parts.size();
   options_.fixed.resize(count, false);
   options_.mass.resize(count);
@@ -120,7 +121,7 @@ bool BuiltPiles::is_of(const Assembly& assembly) const {
 bool BuiltPiles::one_unit(PartId a, PartId b) const { return units_[a] && units_[a] == units_[b]; }
 
 const Shape& BuiltPiles::shape(PartId part) const {
-  if (!shapes_[part]) shapes_[part] = std::make_unique<const Shape>(*meshes_[part]);
+  std::call_once(shape_once_[part], [&] { shapes_[part] = std::make_unique<const Shape>(*meshes_[part]); });
   return *shapes_[part];
 }
 
@@ -185,10 +186,12 @@ BuiltPiles::GridPose BuiltPiles::on_grid(const PlacedPart& a, const PlacedPart& 
           std::llround(p.q.z() / kSamePose)};
 }
 
-const std::vector<Contact>& BuiltPiles::contacts_at(PartId a, PartId b, Gaps gaps, const GridPose& at) const {
+BuiltPiles::Contacts BuiltPiles::contacts_at(PartId a, PartId b, Gaps gaps, const GridPose& at) const {
   const std::tuple key(a, b, gaps, at);
-  if (const auto known = contacts_.find(key); known != contacts_.end()) return known->second;
-  if (contacts_.size() >= kMostKept) contacts_.clear();
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = contacts_.find(key); known != contacts_.end()) return known->second;
+  }
   const Neighbour* near = neighbour(a, b);
   std::optional<double> bond = near == nullptr ? std::nullopt : near->bond;
   Pose pose;
@@ -202,11 +205,13 @@ const std::vector<Contact>& BuiltPiles::contacts_at(PartId a, PartId b, Gaps gap
   }
   std::vector<Contact> found = pair_contacts({&shape(a), pose}, {&shape(b), {}}, touching(gaps), bond);
   for (Contact& c : found) c.friction = options_.friction;
-  return contacts_.emplace(key, std::move(found)).first->second;
+  const std::lock_guard lock(mutex_);
+  if (contacts_.size() >= kMostKept) contacts_.clear();
+  return contacts_.emplace(key, std::make_shared<const std::vector<Contact>>(std::move(found))).first->second;
 }
 
 std::vector<Contact> BuiltPiles::contacts(const PlacedPart& a, const PlacedPart& b, Gaps gaps) const {
-  std::vector<Contact> result = contacts_at(a.part, b.part, gaps, on_grid(a, b));
+  std::vector<Contact> result = *contacts_at(a.part, b.part, gaps, on_grid(a, b));
   if (!b.pose.is_identity())
     for (Contact& c : result) move_by(b.pose, c);
   return result;
@@ -233,7 +238,6 @@ void BuiltPiles::add_table(std::span<const PlacedPart> parts, double lowest, con
 }
 
 BuiltPile BuiltPiles::pile(std::span<const PlacedPart> parts, const Vec3& up, Gaps gaps, bool table) const {
-  const std::lock_guard lock(mutex_);
   const std::size_t count = parts.size();
   std::vector<Aabb> boxes;
   for (const PlacedPart& p : parts) {
@@ -301,14 +305,10 @@ double BuiltPiles::bottom_of(std::span<const PlacedPart> parts, const Vec3& up) 
   return low;
 }
 
-double BuiltPiles::bottom(std::span<const PlacedPart> parts, const Vec3& up) const {
-  const std::lock_guard lock(mutex_);
-  return bottom_of(parts, up);
-}
+double BuiltPiles::bottom(std::span<const PlacedPart> parts, const Vec3& up) const { return bottom_of(parts, up); }
 
 void BuiltPiles::press(BuiltPile& built, std::span<const PlacedPart> parts, std::span<const PlacedPart> moving,
                        const Vec3& direction, double share, Gaps gaps) const {
-  const std::lock_guard lock(mutex_);
   struct Touch {
     std::size_t part;
     Contact contact;

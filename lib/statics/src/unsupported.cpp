@@ -14,7 +14,6 @@ using Vec3 = Eigen::Vector3d;
 
 std::size_t BuiltPiles::unsupported(std::span<const PlacedPart> parts, std::span<const PlacedPart> of,
                                     const Vec3& up) const {
-  const std::lock_guard lock(mutex_);
   const std::vector<const PlacedPart*> there = places(parts);
   const double lowest = bottom_of(parts, up);
   bool all_in_place = true;  // as assembled, relative to each other
@@ -39,7 +38,7 @@ std::size_t BuiltPiles::unsupported(std::span<const PlacedPart> parts, std::span
         const PlacedPart* other = there[n.part];
         if (other == nullptr || seen[n.part] || !n.bond) continue;
         if (!one_unit(body[i].part, n.part) &&
-            (all_in_place ? contacts_at(body[i].part, n.part, Gaps::tight, {}).empty()
+            (all_in_place ? contacts_at(body[i].part, n.part, Gaps::tight, {})->empty()
                           : contacts(body[i], *other, Gaps::tight).empty()))
           continue;
         add(n.part);
@@ -90,9 +89,14 @@ bool BuiltPiles::stands(std::vector<PlacedPart> body, std::vector<PlacedPart> ne
     p.pose = {};
     key.push_back(p.part);
   }
-  if (const auto known = alone_.find(key); known != alone_.end()) return known->second;
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = alone_.find(key); known != alone_.end()) return known->second;
+  }
   table = bottom_of(body, up) - above;
-  return alone_.emplace(std::move(key), either()).first->second;
+  const bool found = either();
+  const std::lock_guard lock(mutex_);
+  return alone_.emplace(std::move(key), found).first->second;
 }
 
 bool BuiltPiles::stands_on(std::span<const PlacedPart> unit, std::span<const PlacedPart> near, const Vec3& up,

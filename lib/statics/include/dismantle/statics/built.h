@@ -84,8 +84,9 @@ class DISMANTLE_API BuiltPiles {
   /// Relative poses on a grid, in steps of it: translation, then rotation. All 0: as assembled.
   using GridPose = std::array<std::int64_t, 7>;
   GridPose on_grid(const PlacedPart& a, const PlacedPart& b) const;
+  using Contacts = std::shared_ptr<const std::vector<Contact>>;
   /// In the frame of b. They are kept.
-  const std::vector<Contact>& contacts_at(PartId a, PartId b, Gaps gaps, const GridPose& pose) const;
+  Contacts contacts_at(PartId a, PartId b, Gaps gaps, const GridPose& pose) const;
   double touching(Gaps gaps) const;
   bool bonded(PartId a, PartId b) const;
   /// By part: where it is; null: it is not there.
@@ -113,9 +114,10 @@ class DISMANTLE_API BuiltPiles {
   std::vector<std::vector<std::size_t>> clamped_of_;        // by part: indices of clamped_
   std::vector<std::optional<PartId>> units_;                // Part::unit
   std::vector<std::vector<Neighbour>> neighbours_;          // by part: those whose boxes are near, ascending
-  mutable std::mutex mutex_;
+  mutable std::vector<std::once_flag> shape_once_;
   mutable std::vector<std::unique_ptr<const Shape>> shapes_;
-  mutable std::map<std::tuple<PartId, PartId, Gaps, GridPose>, std::vector<Contact>> contacts_;
+  mutable std::mutex mutex_;  // of what follows; answers are found without it
+  mutable std::map<std::tuple<PartId, PartId, Gaps, GridPose>, Contacts> contacts_;
   mutable std::map<std::vector<double>, bool> alone_;
 };
 
