@@ -237,7 +237,7 @@ class Serve(CliTest):
 
     def test_a_job_that_is_done_has_changed_all_that_is_told(self):
         self.blocks()
-        for i in range(200):  # so that it takes a while to look through the folder, after the product
+        for i in range(3000):  # so that it takes a while to look through the folder
             self.write(f"in/z{i}.obj", "")
         moves, moved, stop, wrong = 4, [0], threading.Event(), []
 

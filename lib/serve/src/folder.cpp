@@ -30,6 +30,18 @@ bool is_of_plans(const std::string& name) {
   return name.ends_with(kPlanEnd) || name.find(std::string(kPlanEnd) + ".") != std::string::npos;
 }
 
+/// Product and number of a folder with an earlier plan: `gear.plan.2`.
+std::optional<std::pair<std::string, int>> earlier_plan(const std::string& name) {
+  const std::string mark = std::string(kPlanEnd) + ".";
+  const std::size_t at = name.rfind(mark);
+  if (at == std::string::npos) return {};
+  int number = 0;
+  const char* const end = name.data() + name.size();
+  const auto [last, error] = std::from_chars(name.data() + at + mark.size(), end, number);
+  if (error != std::errc() || last != end || number <= 0) return {};
+  return std::pair(name.substr(0, at), number);
+}
+
 }  // namespace
 
 std::string extension_of(const std::string& name) {
@@ -61,15 +73,17 @@ std::vector<Entry> Folder::entries() const {
     const std::string stem = file.stem().string();
     out[uses[stem] > 1 ? file.filename().string() : stem].input = file;
   }
+  std::map<std::string, int> earlier;
   for (const auto& folder : plans) {
     const std::string name = folder.filename().string();
+    if (const auto plan = earlier_plan(name)) ++earlier[plan->first];
     if (name.ends_with(kPlanEnd) && is_file(folder / "plan.json"))
       out[name.substr(0, name.size() - std::string_view(kPlanEnd).size())].has_plan = true;
   }
   std::vector<Entry> entries;
   for (auto& [name, entry] : out) {
     entry.name = name;
-    entry.earlier = static_cast<int>(numbers_of_earlier(name).size());
+    entry.earlier = earlier[name];
     entries.push_back(entry);
   }
   return entries;
@@ -133,14 +147,9 @@ nlohmann::json Folder::summary(const std::string& name) const {
 
 std::vector<int> Folder::numbers_of_earlier(const std::string& name) const {
   std::vector<int> out;
-  const std::string start = name + kPlanEnd + ".";
   for (const auto& item : fs::directory_iterator(path_)) {
-    const std::string file = item.path().filename().string();
-    if (!file.starts_with(start) || !is_folder(item.path())) continue;
-    int number = 0;
-    const char* const end = file.data() + file.size();
-    const auto [last, error] = std::from_chars(file.data() + start.size(), end, number);
-    if (error == std::errc() && last == end && number > 0) out.push_back(number);
+    const auto plan = earlier_plan(item.path().filename().string());
+    if (plan && plan->first == name && is_folder(item.path())) out.push_back(plan->second);
   }
   std::ranges::sort(out);
   return out;

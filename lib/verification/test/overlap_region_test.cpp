@@ -219,7 +219,9 @@ TEST(OverlapRegion, TheDepthOfAMotionIsThatOfSamplesOutsideOfIt) {
     const double most = std::max(deepest_outside(blocks, displacement, *region, -0.03),
                                  deepest_outside(blocks, displacement, Aabb{}, 0) - allowed);
     EXPECT_LT(excess, 1.05 * most + 0.1) << "trial " << trial;
-    if (found) EXPECT_TRUE(found->proved) << "trial " << trial;
+    if (found) {
+      EXPECT_TRUE(found->proved) << "trial " << trial;
+    }
     deep += least > 0.1 ? 1 : 0;
   }
   EXPECT_GT(deep, 10);

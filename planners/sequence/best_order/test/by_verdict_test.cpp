@@ -110,7 +110,9 @@ TEST(ByVerdict, WhatMovesWithinAGroupLeadToStaysFirst) {
     EXPECT_EQ(best.plan.status, PlanStatus::complete);
     ASSERT_EQ(best.plan.disassembly.size(), 5u);
     EXPECT_EQ(best.plan.disassembly[1].moves.front().part, assembly.parts[0].name) << dear;
-    if (dear == 1) EXPECT_NE(best.plan.disassembly[2].moves.front().part, assembly.parts[1].name);
+    if (dear == 1) {
+      EXPECT_NE(best.plan.disassembly[2].moves.front().part, assembly.parts[1].name);
+    }
   }
 }
 

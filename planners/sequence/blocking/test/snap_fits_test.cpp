@@ -144,7 +144,9 @@ TEST(SnapFits, ASearchForThePairDecidesForWhatItHolds) {
     options.force = forced ? ForceWhen::last_resort : ForceWhen::off;
     fake::take_apart(made, 1, options, search);
     EXPECT_EQ(std::ranges::count(deep, 3u) > 0, !forced);
-    if (forced) EXPECT_GE(std::ranges::count(deep, 2u), 1);
+    if (forced) {
+      EXPECT_GE(std::ranges::count(deep, 2u), 1);
+    }
   }
 }
 
