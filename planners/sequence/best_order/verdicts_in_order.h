@@ -16,7 +16,8 @@
 namespace dismantle::order {
 
 /// Adds up verdicts in the order of their questions until one decides the sum: a refusal, an exception, or a sum above
-/// `most`. The result does not depend on the threads; some questions after the one that decides may be asked in vain.
+/// `most`. The result does not depend on the threads: what later questions give, exceptions included, is not used, as
+/// if they had not been asked.
 class VerdictsInOrder {
  public:
   /// `times`: of each cost in the sum.
@@ -33,7 +34,7 @@ class VerdictsInOrder {
           verdict.notes.clear();
           verdict.certificate.reset();
         }
-      } catch (...) {
+      } catch (...) {  // of any type; sum() throws it if it decides
         found.error = std::current_exception();
       }
       add(k, std::move(found));

@@ -8,7 +8,7 @@
 namespace dismantle {
 namespace {
 
-constexpr std::size_t kStretches = 16;  // at least so many of the poses of a step are kept
+constexpr std::size_t kStretches = 16;  // a long step keeps at least one pose of each such share of its poses
 constexpr double kStraight = 1e-6;      // difference of displacements, of their length: not to be seen
 
 /// Translations of all parts from pose `a` to pose `b`, below each other. Empty: a part turns, or none moves.
