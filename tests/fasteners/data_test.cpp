@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -13,17 +12,13 @@
 #include "dismantle/fasteners/recognise.h"
 #include "dismantle/geometry/length_unit.h"
 #include "dismantle/session/session.h"
+#include "dismantle/testing/data_folder.h"
 
 namespace dismantle {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-fs::path data_folder() {
-  if (const char* named = std::getenv("DISMANTLE_DATA"); named != nullptr && *named != '\0') return named;
-  return fs::path(SOURCE_FOLDER).parent_path() / "shared" / "data";
-}
 
 const char* const kFiles[] = {"fasteners/cbeam_linear_actuator_250mm.step",
                               "fasteners/nema_17_v_slot_belt_driven_actuator_500mm.step", "fasteners/smooth_idler.step",
@@ -105,7 +100,7 @@ Score score_of(const std::vector<Found>& found, const json& truth, const std::st
 }
 
 TEST(FastenersOfRealFiles, AreRecognisedByShapeAloneInAnyUnit) {
-  const fs::path data = data_folder();
+  const fs::path data = test_data_folder(SOURCE_FOLDER);
   if (!fs::is_directory(data / "fasteners"))
     GTEST_SKIP() << (data / "fasteners").string() << " is not there; DISMANTLE_DATA names the folder of assemblies";
   std::ifstream stream(data / "fasteners" / "truth.json");

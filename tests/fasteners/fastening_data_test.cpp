@@ -1,7 +1,6 @@
 // What the screws of a real file clamp, names hidden.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -10,19 +9,15 @@
 #include "dismantle/fasteners/recognise.h"
 #include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/session/session.h"
+#include "dismantle/testing/data_folder.h"
 
 namespace dismantle {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path data_folder() {
-  if (const char* named = std::getenv("DISMANTLE_DATA"); named != nullptr && *named != '\0') return named;
-  return fs::path(SOURCE_FOLDER).parent_path() / "shared" / "data";
-}
-
 TEST(FasteningsOfRealFiles, ScrewsOfAnActuator) {
-  const fs::path file = data_folder() / "fasteners" / "nema_17_v_slot_belt_driven_actuator_500mm.step";
+  const fs::path file = test_data_folder(SOURCE_FOLDER) / "fasteners" / "nema_17_v_slot_belt_driven_actuator_500mm.step";
   if (!fs::exists(file)) GTEST_SKIP() << file << " is not there; DISMANTLE_DATA names the folder of assemblies";
   const Session session;
   const RunContext context = session.context();

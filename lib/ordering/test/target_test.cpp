@@ -12,9 +12,9 @@ namespace dismantle::order {
 namespace {
 
 /// Units that block each other at random, in circles, too; some leave in pairs.
-class Random final : public Problem {
+class RandomLoops final : public Problem {
  public:
-  Random(std::size_t units, std::uint64_t seed, bool remembers)
+  RandomLoops(std::size_t units, std::uint64_t seed, bool remembers)
       : of_unit_(units), in_pair_(units), remembers_(remembers) {
     Rng rng(seed);
     for (std::size_t u = 0; u < units; ++u)
@@ -63,7 +63,7 @@ class Random final : public Problem {
 };
 
 /// By the definition: all orders, one after the other.
-double cheapest(Random& problem, const UnitSet& left, std::size_t target, VariantId last) {
+double cheapest_to(RandomLoops& problem, const UnitSet& left, std::size_t target, VariantId last) {
   if (!left.contains(target) || left.size() == 1) return last == kNone ? 0 : problem.cost(last, left, kNone);
   double best = kForbidden;
   left.each([&](std::size_t u) {
@@ -72,14 +72,14 @@ double cheapest(Random& problem, const UnitSet& left, std::size_t target, Varian
       if (!left.includes(leaving) || leaving == left || (leaving.contains(target) && leaving.size() > 1)) continue;
       if (problem.may_leave(v, left))
         best = std::min(
-            best, (last == kNone ? 0 : problem.cost(last, left, v)) + cheapest(problem, left - leaving, target, v));
+            best, (last == kNone ? 0 : problem.cost(last, left, v)) + cheapest_to(problem, left - leaving, target, v));
     }
   });
   return best;
 }
 
 struct Question {
-  Question(Random& problem, double known, bool may_stay)
+  Question(RandomLoops& problem, double known, bool may_stay)
       : bound(problem, UnitSet(problem.units(), true), 0, known, may_stay) {
     task.start = UnitSet(problem.units(), true);
     task.end = End::target;
@@ -92,8 +92,8 @@ struct Question {
 TEST(Target, BestFirstFindsTheCheapestOfAllOrders) {
   unsigned possible = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    Random problem(3 + seed % 4, seed, seed % 2 == 0);
-    const double truth = cheapest(problem, UnitSet(problem.units(), true), 0, kNone);
+    RandomLoops problem(3 + seed % 4, seed, seed % 2 == 0);
+    const double truth = cheapest_to(problem, UnitSet(problem.units(), true), 0, kNone);
     Question q(problem, kForbidden, true);
     Effort effort{1000000};
     const BestFirst found = best_first(problem, q.task, kForbidden, effort);
@@ -112,9 +112,9 @@ TEST(Target, BestFirstFindsTheCheapestOfAllOrders) {
 TEST(Target, TheBoundIsNeverAboveTheCheapestOrder) {
   unsigned exact = 0, possible = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-    Random problem(3 + seed % 5, 5000 + seed, false);
+    RandomLoops problem(3 + seed % 5, 5000 + seed, false);
     const UnitSet all(problem.units(), true);
-    const double truth = cheapest(problem, all, 0, kNone);
+    const double truth = cheapest_to(problem, all, 0, kNone);
     Question q(problem, kForbidden, true);
     EXPECT_LE(q.bound.of(all), truth + 1e-9) << seed;
     possible += truth < kForbidden ? 1 : 0;
@@ -130,8 +130,8 @@ TEST(Target, TheBoundIsNeverAboveTheCheapestOrder) {
 /// What costs too much is left out before the search, and nothing else.
 TEST(Target, ACheaperOrderThanTheKnownOneIsFoundOrThereIsNone) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    Random problem(6, 9000 + seed, true);
-    const double truth = cheapest(problem, UnitSet(6, true), 0, kNone);
+    RandomLoops problem(6, 9000 + seed, true);
+    const double truth = cheapest_to(problem, UnitSet(6, true), 0, kNone);
     if (!(truth < kForbidden)) continue;
     Effort effort{1000000};
     Question none(problem, truth, true);
@@ -149,9 +149,9 @@ TEST(Target, ACheaperOrderThanTheKnownOneIsFoundOrThereIsNone) {
 TEST(Target, SomeOrderIsFoundWithoutASearch) {
   unsigned possible = 0, found = 0, cheapest_ones = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    Random problem(3 + seed % 5, 25000 + seed, false);
+    RandomLoops problem(3 + seed % 5, 25000 + seed, false);
     const UnitSet all(problem.units(), true);
-    const double truth = cheapest(problem, all, 0, kNone);
+    const double truth = cheapest_to(problem, all, 0, kNone);
     Question q(problem, kForbidden, true);
     const std::vector<VariantId> some = q.bound.some_order(all);
     possible += truth < kForbidden ? 1 : 0;
@@ -169,9 +169,9 @@ TEST(Target, SomeOrderIsFoundWithoutASearch) {
 TEST(Target, TheWayToItIsTheCheapestOfAllOrders) {
   unsigned possible = 0, poor_ones = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-    Random problem(3 + seed % 5, 15000 + seed, seed % 2 == 0);
+    RandomLoops problem(3 + seed % 5, 15000 + seed, seed % 2 == 0);
     const UnitSet all(problem.units(), true);
-    const double truth = cheapest(problem, all, 0, kNone);
+    const double truth = cheapest_to(problem, all, 0, kNone);
     Effort effort{1000000};
     const TargetOrder option = order_to(problem, all, 0, kForbidden, effort);
     EXPECT_TRUE(option.complete) << seed;
@@ -198,7 +198,7 @@ TEST(Target, TheWayToItIsTheCheapestOfAllOrders) {
 TEST(Target, BeamAndWindowsGiveOrdersThatAreFeasible) {
   unsigned found_some = 0;
   for (std::uint64_t seed = 1; seed <= 120; ++seed) {
-    Random problem(6 + seed % 3, 12000 + seed, true);
+    RandomLoops problem(6 + seed % 3, 12000 + seed, true);
     Question q(problem, kForbidden, true);
     Effort effort{4000}, more{20000};
     Order found = beam(problem, q.task, effort);

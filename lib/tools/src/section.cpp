@@ -5,20 +5,12 @@
 #include <limits>
 #include <numbers>
 
+#include "plane.h"
+
 namespace dismantle::tools {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-double squared_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 ab = b - a;
-  const double length2 = ab.squaredNorm(), t = length2 > 0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0;
-  return (p - a - t * ab).squaredNorm();
-}
-
-double point_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) { return std::sqrt(squared_to_segment(p, a, b)); }
 
 /// Of a convex polygon and a segment; 0 where they meet.
 double distance(const Piece& piece, const Vec2& a, const Vec2& b) {

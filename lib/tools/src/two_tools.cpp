@@ -7,6 +7,7 @@
 
 #include "arcs.h"
 #include "frame.h"
+#include "plane.h"
 
 namespace dismantle::tools {
 namespace {
@@ -62,15 +63,6 @@ Solid turned(Solid s, double angle) {
   return s;
 }
 
-double distance(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
-  const Vector2d along = b - a;
-  const double length = along.squaredNorm();
-  const double t = length > 0 ? std::clamp((p - a).dot(along) / length, 0.0, 1.0) : 0;
-  return (p - a - t * along).norm();
-}
-
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 bool contains(const Solid& s, const Vector2d& p) {
   if (s.count < 4) return false;
   bool left = true, right = true;
@@ -94,7 +86,7 @@ double gap(const Solid& a, const Solid& b) {
       const double one = cross(p2 - p, q - p), two = cross(p2 - p, q2 - p), three = cross(q2 - q, p - q),
                    four = cross(q2 - q, p2 - q);
       if (one * two < 0 && three * four < 0) return -1;
-      least = std::min({least, distance(p, q, q2), distance(q, p, p2)});
+      least = std::min({least, point_to_segment(p, q, q2), point_to_segment(q, p, p2)});
     }
   }
   return least - a.radius - b.radius;

@@ -42,8 +42,8 @@ struct Gate {
 constexpr double kStep = 0.05;
 
 /// A query in the box, with all objects that it refers to.
-struct Task {
-  explicit Task(const Gate& walls, MotionSpace motion = MotionSpace::translation) {
+struct GateQuery {
+  explicit GateQuery(const Gate& walls, MotionSpace motion = MotionSpace::translation) {
     simulator.depth = [walls](const Pose& p) { return walls.blocks(p.t) ? 1.0 : 0.0; };
     simulator.out = [](const Pose& p) { return p.t.cwiseAbs().maxCoeff() > 6; };
     prepared = simulator.prepare(assembly, 0.01, context);
@@ -66,23 +66,23 @@ struct Task {
   std::unique_ptr<SamplingProblem> problem;
 };
 
-std::unique_ptr<Roadmap> make(Task& task, std::uint64_t seed, Roadmap*) {
+std::unique_ptr<Roadmap> make(GateQuery& task, std::uint64_t seed, Roadmap*) {
   return std::make_unique<Roadmap>(*task.problem, Roadmap::Settings{}, Rng(seed));
 }
-std::unique_ptr<ConnectTrees> make(Task& task, std::uint64_t seed, ConnectTrees*) {
+std::unique_ptr<ConnectTrees> make(GateQuery& task, std::uint64_t seed, ConnectTrees*) {
   return std::make_unique<ConnectTrees>(*task.problem, 1.0, Rng(seed));
 }
 
 template <class Planner>
 class TwoEnds : public testing::Test {
  protected:
-  static std::unique_ptr<Planner> planner(Task& task, std::uint64_t seed) {
+  static std::unique_ptr<Planner> planner(GateQuery& task, std::uint64_t seed) {
     auto made = make(task, seed, static_cast<Planner*>(nullptr));
     task.set_up(*made, seed);
     return made;
   }
   /// Runs until there is a path or `until` checks have been made.
-  static std::vector<StateType> solve(Planner& planner, Task& task, std::uint64_t until = 2'000'000) {
+  static std::vector<StateType> solve(Planner& planner, GateQuery& task, std::uint64_t until = 2'000'000) {
     const ompl::base::PlannerTerminationCondition stop([&, until] { return task.budget->checks >= until; });
     return planner.solve(stop) == ompl::base::PlannerStatus::EXACT_SOLUTION ? planner.solution()
                                                                             : std::vector<StateType>{};
@@ -101,7 +101,7 @@ TYPED_TEST(TwoEnds, FindsTheHole) {
   Rng rng(1);
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     const Gate gate(rng);
-    Task task(gate, seed % 3 == 0 ? MotionSpace::rigid : MotionSpace::translation);
+    GateQuery task(gate, seed % 3 == 0 ? MotionSpace::rigid : MotionSpace::translation);
     const auto planner = this->planner(task, seed);
     const auto states = this->solve(*planner, task);
     ASSERT_FALSE(states.empty()) << "seed " << seed;
@@ -120,7 +120,7 @@ TYPED_TEST(TwoEnds, FindsNothingWhereThereIsNothing) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     Gate closed(rng);
     closed.at = Vector3d::Constant(100);
-    Task task(closed);
+    GateQuery task(closed);
     const auto planner = this->planner(task, seed);
     EXPECT_TRUE(this->solve(*planner, task, 20'000).empty());
     EXPECT_GE(task.budget->checks, 20'000u);
@@ -133,7 +133,7 @@ TYPED_TEST(TwoEnds, InPortionsAsWithoutStops) {
   Rng rng(3);
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const Gate gate(rng);
-    Task task(gate), again(gate);
+    GateQuery task(gate), again(gate);
     const auto planner = this->planner(task, seed), in_portions = this->planner(again, seed);
     const auto whole = this->solve(*planner, task);
     std::vector<StateType> pieces;
@@ -150,7 +150,7 @@ TYPED_TEST(TwoEnds, InPortionsAsWithoutStops) {
 TYPED_TEST(TwoEnds, WhatIsDiscardedIsNotUsedAgain) {
   Rng rng(4);
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    Task task{Gate(rng)};
+    GateQuery task{Gate(rng)};
     const auto planner = this->planner(task, seed);
     std::vector<std::pair<StateType, StateType>> gone;
     for (int refusal = 0; refusal < 8; ++refusal) {
@@ -177,7 +177,7 @@ TYPED_TEST(TwoEnds, DependsOnItsSeedAlone) {
   const auto first = next_seed(), second = next_seed();
   ompl::RNG::setSeed(17);
   ASSERT_EQ(next_seed(), first);
-  Task a(gate), b(gate), c(gate);
+  GateQuery a(gate), b(gate), c(gate);
   const auto one = this->planner(a, 1);
   const auto path = this->solve(*one, a);
   EXPECT_EQ(next_seed(), second);
@@ -190,7 +190,7 @@ TYPED_TEST(TwoEnds, DependsOnItsSeedAlone) {
 TEST(DisassembledGoal, SamplesAreOut) {
   Rng rng(6);
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    Task task(Gate(rng), seed % 2 == 0 ? MotionSpace::rigid : MotionSpace::translation);
+    GateQuery task(Gate(rng), seed % 2 == 0 ? MotionSpace::rigid : MotionSpace::translation);
     const DisassembledGoal goal(*task.problem, 40, Rng(seed));
     double last = 0;
     for (unsigned k = 0; k < goal.maxSampleCount(); ++k) {

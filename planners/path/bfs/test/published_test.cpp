@@ -31,8 +31,8 @@ ParamSet paper_planner(ParamSet given = {}) {
   return given;
 }
 
-struct Bench : path::test::Table {
-  explicit Bench(Assembly a, bool adaptive = true) : Table(std::move(a)) {
+struct PublishedBench : path::test::Table {
+  explicit PublishedBench(Assembly a, bool adaptive = true) : Table(std::move(a)) {
     simulator = path::test::registry().create<Simulator>("sdf_penalty", paper_simulator(adaptive));
     RunContext context;
     prepared = simulator->prepare(assembly, 0.01, context);
@@ -53,19 +53,19 @@ Assembly slot(double length, const Pose& pose = {}) {
                      pose);
 }
 
-const ParamSet kTranslation{{"motion", std::string("translation")}};
+const ParamSet kTranslationOnly{{"motion", std::string("translation")}};
 
 TEST(Published, SlotsOfAnyLengthAreSolvedAtDepthTwoInFewSteps) {
   Rng rng(1);
   for (int k = 0; k < 6; ++k) {
     const double length = rng.uniform(1.2, 4);
-    Bench bench(slot(length));
-    const PathResult r = bench.plan(kTranslation);
+    PublishedBench bench(slot(length));
+    const PathResult r = bench.plan(kTranslationOnly);
     ASSERT_EQ(r.outcome(), Outcome::solved) << length << ": " << r.message;
     EXPECT_EQ(r.depth, 2u);
     // A planning time step of 100 time steps moves it by half a unit; a tenth of the time steps is simulated.
     EXPECT_LT(r.stats.steps, 150 + 60 * length) << length;
-    EXPECT_EQ(bench.plan(kTranslation, {.max_depth = 1}).outcome(), Outcome::depth_limit);
+    EXPECT_EQ(bench.plan(kTranslationOnly, {.max_depth = 1}).outcome(), Outcome::depth_limit);
   }
 }
 
@@ -73,8 +73,8 @@ TEST(Published, SlotsOfAnyLengthAreSolvedAtDepthTwoInFewSteps) {
 TEST(Published, PathsAreThinnedToAShareOfTheTolerance) {
   for (const double slope : {0.3, 0.6}) {
     const Pose turned{Vector3d::Zero(), Eigen::Quaterniond(Eigen::AngleAxisd(slope, Vector3d(1, 2, 3).normalized()))};
-    Bench bench(slot(1.5, turned));
-    const PathResult r = bench.plan(kTranslation);
+    PublishedBench bench(slot(1.5, turned));
+    const PathResult r = bench.plan(kTranslationOnly);
     ASSERT_EQ(r.outcome(), Outcome::solved) << slope << ": " << r.message;
     EXPECT_EQ(r.stats.refused, 0u) << slope;
   }
@@ -84,8 +84,8 @@ TEST(Published, EveryTimeStepSimulatedFindsTheSameWayInTheStepsOfTheSource) {
   Rng rng(2);
   for (int k = 0; k < 3; ++k) {
     const double length = rng.uniform(1.2, 3);
-    Bench every(slot(length), false), adaptive(slot(length));
-    const PathResult a = every.plan(kTranslation), b = adaptive.plan(kTranslation);
+    PublishedBench every(slot(length), false), adaptive(slot(length));
+    const PathResult a = every.plan(kTranslationOnly), b = adaptive.plan(kTranslationOnly);
     ASSERT_EQ(a.outcome(), Outcome::solved) << a.message;
     ASSERT_EQ(b.outcome(), Outcome::solved) << b.message;
     EXPECT_EQ(a.depth, b.depth);
@@ -96,11 +96,11 @@ TEST(Published, EveryTimeStepSimulatedFindsTheSameWayInTheStepsOfTheSource) {
 }
 
 TEST(Published, ADeeperSearchGoesOnWhereTheEarlierEnded) {
-  Bench bench(slot(2));
-  const PathResult whole = bench.plan(kTranslation, {.max_depth = 2});
-  const PathResult first = bench.plan(kTranslation, {.max_depth = 1});
+  PublishedBench bench(slot(2));
+  const PathResult whole = bench.plan(kTranslationOnly, {.max_depth = 2});
+  const PathResult first = bench.plan(kTranslationOnly, {.max_depth = 1});
   ASSERT_TRUE(first.state);
-  const PathResult second = bench.plan(kTranslation, {.max_depth = 2}, first.state.get());
+  const PathResult second = bench.plan(kTranslationOnly, {.max_depth = 2}, first.state.get());
   ASSERT_EQ(second.outcome(), Outcome::solved);
   EXPECT_EQ(first.stats.steps + second.stats.steps, whole.stats.steps);
   ASSERT_EQ(second.path()->poses().size(), whole.path()->poses().size());
@@ -109,9 +109,9 @@ TEST(Published, ADeeperSearchGoesOnWhereTheEarlierEnded) {
 }
 
 TEST(Published, TheLongestWayComesFirst) {
-  Bench bench(slot(3));
-  const PathResult longest = bench.plan(kTranslation);
-  ParamSet queue = kTranslation;
+  PublishedBench bench(slot(3));
+  const PathResult longest = bench.plan(kTranslationOnly);
+  ParamSet queue = kTranslationOnly;
   queue["order"] = std::string("first_come");
   const PathResult first = bench.plan(queue);
   ASSERT_EQ(longest.outcome(), Outcome::solved);
@@ -126,7 +126,7 @@ TEST(Published, AClosedBoxIsExhaustedWithoutARefusal) {
   const Mesh inner = boxes({block(-0.6, -0.5, -0.4, 0.6, 0.5, 0.4)});
   for (const auto& v : inner.vertices) room.vertices.push_back(v);
   for (const auto& t : inner.triangles) room.triangles.push_back({t[0] + 8, t[2] + 8, t[1] + 8});
-  Bench bench(
+  PublishedBench bench(
       assembly_of({boxes({block(-0.6 + play, -0.5 + play, -0.4 + play, 0.6 - play, 0.5 - play, 0.4 - play)}), room}));
   for (const char* motion : {"translation", "rotation", "auto"}) {
     const PathResult r = bench.plan({{"motion", std::string(motion)}}, {.max_steps = 20'000});
@@ -137,7 +137,7 @@ TEST(Published, AClosedBoxIsExhaustedWithoutARefusal) {
 }
 
 TEST(Published, InPortionsTheSearchIsTheSame) {
-  Bench bench(slot(2));
+  PublishedBench bench(slot(2));
   const PathResult whole = bench.plan({});
   ASSERT_EQ(whole.outcome(), Outcome::solved);
   const PathResult limited = bench.plan({}, {.max_steps = whole.stats.steps});

@@ -14,7 +14,7 @@
 namespace dismantle {
 namespace {
 
-RunResult take_apart(const Assembly& assembly, unsigned threads = 1, const RunOptions& options = {}) {
+RunResult prove_apart(const Assembly& assembly, unsigned threads = 1, const RunOptions& options = {}) {
   return fake::take_apart(assembly, threads, options, &fake::helpless, fake::built_in_provers());
 }
 
@@ -31,7 +31,7 @@ Assembly cased_pairs(int count) {
 }
 
 TEST(BlockingWithProvers, EachOfSeveralPairsIsProvedInseparable) {
-  RunResult r = take_apart(cased_pairs(3), 2);
+  RunResult r = prove_apart(cased_pairs(3), 2);
   EXPECT_EQ(r.outcome, Outcome::infeasible);
   EXPECT_EQ(r.plan.disassembly.size(), 2u) << "the pairs themselves part";
   ASSERT_EQ(r.plan.unsolved.size(), 6u);
@@ -51,7 +51,7 @@ TEST(BlockingWithProvers, InseparablePartsAreReported) {
                              box({-0.5, -0.5, 0.7}, {0.5, 0.5, 1})});
     RunOptions options;
     options.constraints.base = {0};  // otherwise the tray is removed from the two
-    RunResult r = take_apart(assembly, 1, options);
+    RunResult r = prove_apart(assembly, 1, options);
     if (opening > 0.8) {
       EXPECT_EQ(r.outcome, Outcome::solved) << "the ring fits through";
       continue;
@@ -72,7 +72,7 @@ TEST(BlockingWithProvers, AfterAllSearchesTwoOfNoKnownShapeAreProvedInseparable)
     const shapes::Cased held{{0.5, 0.4, 0.3}, 0.02, rim, 0.15};
     const Assembly assembly =
         shapes::assembly_of({held.around(), held.block(), shapes::box({-0.2, -0.2, 0.5}, {0.2, 0.2, 0.7})});
-    RunResult r = take_apart(assembly);
+    RunResult r = prove_apart(assembly);
     ASSERT_FALSE(r.plan.disassembly.empty()) << "the loose one leaves";
     if (rim < 0) {
       EXPECT_EQ(r.outcome, Outcome::solved);
@@ -90,7 +90,7 @@ TEST(BlockingWithProvers, AfterAllSearchesTwoOfNoKnownShapeAreProvedInseparable)
 
 TEST(BlockingWithProvers, AfterAnUnsuccessfulSearchAFlatPieceIsProvedToStayInItsChamber) {
   const Mesh can = shapes::can_with_window(1, 0.6, 0.3, 0.3, 6), disc = shapes::tube(0, 0.9, -0.05, 0.05, 48);
-  RunResult r = take_apart(shapes::assembly_of({can, disc, shapes::box({-0.1, -0.1, 0.61}, {0.1, 0.1, 0.9})}));
+  RunResult r = prove_apart(shapes::assembly_of({can, disc, shapes::box({-0.1, -0.1, 0.61}, {0.1, 0.1, 0.9})}));
   EXPECT_EQ(r.outcome, Outcome::infeasible);
   EXPECT_EQ(r.plan.disassembly.size(), 1u) << "the loose one leaves";
   EXPECT_GT(r.counts.attempts, 0);
@@ -100,7 +100,7 @@ TEST(BlockingWithProvers, AfterAnUnsuccessfulSearchAFlatPieceIsProvedToStayInIts
 
 TEST(BlockingWithProvers, AfterAllSearchesThreeAreProvedInseparableTogether) {
   const shapes::Keyed keyed{.play = 0.003};
-  RunResult r = take_apart(shapes::assembly_of({keyed.slab(), keyed.tray(), keyed.block()}));
+  RunResult r = prove_apart(shapes::assembly_of({keyed.slab(), keyed.tray(), keyed.block()}));
   EXPECT_EQ(r.outcome, Outcome::exhausted);
   EXPECT_TRUE(r.plan.disassembly.empty());
   EXPECT_GT(r.counts.attempts, 0) << "the proof spares no search";

@@ -26,9 +26,9 @@ namespace {
 
 constexpr std::size_t kDeepest = 200;  // levels of nodes; they are walked by recursion
 
-class NodeReader {
+class DaeReader {
  public:
-  explicit NodeReader(const std::filesystem::path& file) : file_(file), document_(read_xml(file)) {}
+  explicit DaeReader(const std::filesystem::path& file) : file_(file), document_(read_xml(file)) {}
 
   PartsOfFile read() {
     if (document_.name != "COLLADA") fail("this is no .dae file: it does not begin with <COLLADA>");
@@ -356,6 +356,6 @@ class NodeReader {
 
 }  // namespace
 
-PartsOfFile read_dae(const std::filesystem::path& file) { return NodeReader(file).read(); }
+PartsOfFile read_dae(const std::filesystem::path& file) { return DaeReader(file).read(); }
 
 }  // namespace dismantle::mesh_files

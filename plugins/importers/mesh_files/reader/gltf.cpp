@@ -52,9 +52,9 @@ Eigen::Matrix4d matrix_of(const Json& node) {
   return out.matrix();
 }
 
-class NodeReader {
+class GltfReader {
  public:
-  explicit NodeReader(const std::filesystem::path& file) : file_(file), document_(file) {}
+  explicit GltfReader(const std::filesystem::path& file) : file_(file), document_(file) {}
 
   PartsOfFile read() {
     for (const Json& name : document_.root().value("extensionsRequired", Json::array()))
@@ -293,7 +293,7 @@ class NodeReader {
 
 PartsOfFile read_gltf(const std::filesystem::path& file) {
   try {
-    return NodeReader(file).read();
+    return GltfReader(file).read();
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {

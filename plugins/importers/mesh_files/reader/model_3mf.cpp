@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view kProduction = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
 
 /// Extensions that a model may require: what they add is read, or changes no shape.
-bool extension_is_known(std::string_view space) {
+bool namespace_is_known(std::string_view space) {
   return space == kProduction || space.find("/material/") != space.npos || space.find("/trianglesets/") != space.npos;
 }
 
@@ -81,7 +81,7 @@ class ModelParser {
     for (std::string_view prefix = take_word(required); !prefix.empty(); prefix = take_word(required)) {
       const auto found = xml_.prefixes.find(std::string(prefix));
       const std::string space = found == xml_.prefixes.end() ? std::string(prefix) : found->second;
-      if (!extension_is_known(space))
+      if (!namespace_is_known(space))
         fail(fmt::format("it requires the extension '{}' ({}), which is not read: export it without", prefix, space));
     }
   }

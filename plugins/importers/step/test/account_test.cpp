@@ -9,6 +9,7 @@
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/run_context.h"
 #include "external_files.h"
+#include "read_step.h"
 #include "scratch.h"
 #include "step_files.h"
 #include "step_importer.h"
@@ -18,43 +19,12 @@ namespace {
 
 using namespace testing;
 
-struct Read {
-  std::vector<RawPart> parts;
-  std::string log;
-};
-
-Read read(const std::filesystem::path& file) {
-  Read out;
-  RunContext context;
-  context.on_log = [&](LogLevel, std::string_view text) { out.log += std::string(text) + "\n"; };
-  out.parts = StepImporter({}, STEP_READER).read(file, context);
-  return out;
-}
-
-std::string text_of(StepFile& file, const Scratch& scratch, const char* unit = "MM") {
-  file.write(scratch / "written.step", unit);
-  std::ifstream in(scratch / "written.step", std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
-}
-
 std::string two_parts(const std::string& a, const std::string& b, const Scratch& scratch, const char* unit = "MM") {
   StepFile out;
   const TDF_Label root = out.assembly("root");
   out.place(root, out.product(box(10, 6, 4), a), moved(0, 0, 0));
   out.place(root, out.product(box(1, 2, 3), b), moved(20, 0, 0));
   return text_of(out, scratch, unit);
-}
-
-std::vector<std::string> names(const Read& in) {
-  std::vector<std::string> out;
-  for (const auto& part : in.parts) out.push_back(part.name);
-  return out;
 }
 
 TEST(StepAccount, NamesInOtherEncodings) {

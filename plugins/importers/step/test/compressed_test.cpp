@@ -10,6 +10,7 @@
 
 #include "dismantle/run_context.h"
 #include "external_files.h"
+#include "read_step.h"
 #include "scratch.h"
 #include "step_files.h"
 #include "step_importer.h"
@@ -19,16 +20,13 @@ namespace {
 
 using namespace testing;
 
-std::vector<RawPart> read(const std::filesystem::path& file) { return StepImporter({}, STEP_READER).read(file, {}); }
-
 std::string two_boxes(const Scratch& scratch) {
   StepFile out;
   const TDF_Label root = out.assembly("root");
   out.place(root, out.product(box(10, 6, 4), "Caf\u00e9"), moved(0, 0, 0));
   out.place(root, out.product(box(1, 2, 3), "lid"), moved(20, 0, 0));
   out.write(scratch / "plain.step");
-  std::ifstream in(scratch / "plain.step", std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  return bytes_of(scratch / "plain.step");
 }
 
 std::filesystem::path gzip(const std::filesystem::path& file, const std::string& text, const char* mode = "wb") {
@@ -50,20 +48,15 @@ std::filesystem::path zip(const std::filesystem::path& file,
   return file;
 }
 
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 TEST(CompressedStep, HasThePartsOfTheFileInIt) {
   const Scratch scratch;
   const std::string text = two_boxes(scratch);
-  const auto plain = read(scratch / "plain.step");
+  const auto plain = read(scratch / "plain.step").parts;
   ASSERT_EQ(plain.size(), 2u);
   const auto twice = gzip(gzip(scratch / "two.stpz", text.substr(0, 900)), text.substr(900), "ab");  // two members
   for (const auto& file : {gzip(scratch / "gzip.stpz", text), gzip(scratch / "named.step", text), twice,
                            zip(scratch / "zip.stpz", {{"readme.txt", "no STEP"}, {"a/Model.STP", text}})}) {
-    const auto parts = read(file);
+    const auto parts = read(file).parts;
     ASSERT_EQ(parts.size(), plain.size()) << file;
     for (std::size_t i = 0; i < parts.size(); ++i) {
       EXPECT_EQ(parts[i].name, plain[i].name);

@@ -2,22 +2,17 @@
 // with the same boxes.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <string>
 
 #include "dismantle/preparation/prepare.h"
+#include "dismantle/testing/data_folder.h"
 #include "step_importer.h"
 
 namespace dismantle::step_import {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path data_folder() {
-  if (const char* named = std::getenv("DISMANTLE_DATA"); named != nullptr && *named != '\0') return named;
-  return fs::path(SOURCE_FOLDER).parent_path() / "shared" / "data";
-}
 
 struct Boxes {
   std::vector<Aabb> parts;
@@ -41,7 +36,7 @@ double millimetres(const std::string& unit) {
 double distance(const Aabb& a, const Aabb& b) { return std::max((a.lo - b.lo).norm(), (a.hi - b.hi).norm()); }
 
 TEST(RealStepFiles, HaveThePartsOfTheirMeshesInTheSamePlaces) {
-  const fs::path data = data_folder();
+  const fs::path data = test_data_folder(SOURCE_FOLDER);
   if (!fs::is_directory(data / "step"))
     GTEST_SKIP() << (data / "step").string() << " is not there; DISMANTLE_DATA names the folder of assemblies";
   std::vector<fs::path> files;

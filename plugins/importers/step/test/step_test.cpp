@@ -14,6 +14,7 @@
 #include "dismantle/preparation/prepare.h"
 #include "dismantle/preparation/read_input.h"
 #include "reader/product_names.h"
+#include "read_step.h"
 #include "scratch.h"
 #include "step_files.h"
 #include "step_importer.h"
@@ -23,31 +24,10 @@ namespace {
 
 using namespace testing;
 
-const std::filesystem::path kReader = STEP_READER;
-
-struct Read {
-  std::vector<RawPart> parts;
-  std::string log;
-};
-
-Read read(const std::filesystem::path& file, const StepParameters& params = {}) {
-  Read out;
-  RunContext context;
-  context.on_log = [&](LogLevel, std::string_view text) { out.log += std::string(text) + "\n"; };
-  out.parts = StepImporter(params, kReader).read(file, context);
-  return out;
-}
-
 const RawPart& part_of(const Read& in, const std::string& name) {
   for (const auto& part : in.parts)
     if (part.name == name) return part;
   throw std::runtime_error("no part " + name);
-}
-
-std::vector<std::string> names(const Read& in) {
-  std::vector<std::string> out(in.parts.size());
-  std::ranges::transform(in.parts, out.begin(), &RawPart::name);
-  return out;
 }
 
 /// Closed without any repair: each directed edge is matched by its opposite.

@@ -12,6 +12,7 @@
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/preparation/prepare.h"
 #include "dismantle/run_context.h"
+#include "read_step.h"
 #include "scratch.h"
 #include "step_files.h"
 #include "step_importer.h"
@@ -20,37 +21,6 @@ namespace dismantle::step_import {
 namespace {
 
 using namespace testing;
-
-struct Read {
-  std::vector<RawPart> parts;
-  std::string log;
-};
-
-Read read(const std::filesystem::path& file) {
-  Read out;
-  RunContext context;
-  context.on_log = [&](LogLevel, std::string_view text) { out.log += std::string(text) + "\n"; };
-  out.parts = StepImporter({}, STEP_READER).read(file, context);
-  return out;
-}
-
-std::string written(StepFile& file, const Scratch& scratch) {
-  file.write(scratch / "written.step");
-  std::ifstream in(scratch / "written.step", std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
-}
-
-std::vector<std::string> names(const Read& in) {
-  std::vector<std::string> out;
-  for (const auto& part : in.parts) out.push_back(part.name);
-  return out;
-}
 
 /// Puts the first `count` faces of a box of edge length 5 into `empty`.
 TopoDS_Shape faces_of_a_box(int count, TopoDS_Shape empty) {
@@ -102,7 +72,7 @@ TEST(StepSurfaces, FacesWithoutAShellAreOne) {
   out.place(root, out.product(box(1, 1, 1), "cube"), moved(9, 0, 0));
   out.place(root, out.product(faces_of_a_box(3, shell), "hood"), moved(0, 0, 0));
   const Scratch scratch;
-  std::string text = replaced(written(out, scratch), "OPEN_SHELL", "CONNECTED_FACE_SET");
+  std::string text = replaced(text_of(out, scratch), "OPEN_SHELL", "CONNECTED_FACE_SET");
   text = replaced(text, "SHELL_BASED_SURFACE_MODEL", "FACE_BASED_SURFACE_MODEL");
   ASSERT_NE(text.find("CONNECTED_FACE_SET"), std::string::npos);
   const Read in = read(scratch.write("a.step", text));
