@@ -1,6 +1,5 @@
-#include "dismantle/ompl/disassembled_goal.h"
 #include "dismantle/ompl/roadmap.h"
-#include "dismantle/ompl/space_search.h"
+#include "dismantle/ompl/start_and_goals.h"
 #include "dismantle/plugin.h"
 
 namespace dismantle::prm {
@@ -36,36 +35,16 @@ struct Parameters : sampling::SpaceParameters {
   }
 };
 
-class RoadmapInSpace final : public sampling::SpacePlanner {
- public:
-  RoadmapInSpace(SamplingProblem& problem, const Parameters& p, const Rng& rng)
-      : roadmap_(problem, {static_cast<std::size_t>(p.neighbours), p.range, p.expansion, p.gaussian}, rng.fork(1)) {
-    roadmap_.setProblemDefinition(sampling::definition_of(
-        problem, std::make_shared<sampling::DisassembledGoal>(problem, static_cast<unsigned>(p.goals), rng.fork(2))));
-  }
-
-  std::vector<StateType> solve(const ompl::base::PlannerTerminationCondition& stop) override {
-    return roadmap_.solve(stop) == ompl::base::PlannerStatus::EXACT_SOLUTION ? roadmap_.solution()
-                                                                             : std::vector<StateType>{};
-  }
-  void discard(std::size_t edge) override { roadmap_.discard(edge); }
-  std::uint64_t nodes() const override { return roadmap_.nodes(); }
-  std::uint64_t iterations() const override { return roadmap_.iterations(); }
-  std::optional<StateType> farthest() const override { return roadmap_.farthest(); }
-
- private:
-  Roadmap roadmap_;
-};
-
 class Prm final : public PathPlanner {
  public:
   explicit Prm(const Parameters& parameters) : parameters_(parameters) {}
   PathPlannerTraits traits() const noexcept override { return {.needs = sampling::kSpaceNeeds}; }
   std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
-    return sampling::start_search(query, context, parameters_,
-                                  [p = parameters_](SamplingProblem& problem, const Rng& rng) {
-                                    return std::make_unique<RoadmapInSpace>(problem, p, rng);
-                                  });
+    return sampling::start_search(
+        query, context, parameters_, [p = parameters_](SamplingProblem& problem, const Rng& rng) {
+          const Roadmap::Settings settings{static_cast<std::size_t>(p.neighbours), p.range, p.expansion, p.gaussian};
+          return std::make_unique<sampling::StartAndGoals<Roadmap>>(problem, p.goals, settings, rng);
+        });
   }
 
  private:

@@ -39,7 +39,10 @@ class ConnectTrees final : public ompl::base::Planner {
   void discard(std::size_t edge);
   std::uint64_t nodes() const { return grown_ + trees_[0].size() + trees_[1].size(); }
   std::uint64_t iterations() const { return iterations_; }
-  const StateTree& from_start() const { return trees_[0]; }
+  /// Of the states of the tree from the start, the one whose centre is furthest from it. Nothing before solve().
+  std::optional<StateType> farthest() const {
+    return trees_[0].size() > 0 ? std::optional(trees_[0].state(trees_[0].farthest())) : std::nullopt;
+  }
 
  private:
   /// One tree extends, from its node `at`, towards the other tree's new node `meeting`.
