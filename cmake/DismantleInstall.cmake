@@ -45,9 +45,12 @@ foreach(file IN LISTS linked ITEMS tools/packages.txt)
   install(FILES "${file}" DESTINATION "${CMAKE_INSTALL_DOCDIR}/${folder}" COMPONENT pages)
 endforeach()
 
-# The programs and the built-in plugins, without tests.
+# The programs, the built-in plugins and the Python module, without tests: what quickstart builds and the README uses.
 get_property(built_in GLOBAL PROPERTY DISMANTLE_BUILT_IN_PLUGINS)
 add_custom_target(programs DEPENDS dismantle ${built_in})
+if(TARGET dismantle_python)
+  add_dependencies(programs dismantle_python)
+endif()
 # What a plan of mesh files with the default configuration needs: quickstart shows one before it builds the rest.
 add_custom_target(first_plan DEPENDS dismantle)
 dismantle_uses(first_plan ${DISMANTLE_DEFAULT_PLUGINS} ${DISMANTLE_PROVER_PLUGINS})
