@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(FasteningsOfRealFiles, ScrewsOfAnActuator) {
-  const fs::path file = test_data_folder(SOURCE_FOLDER) / "fasteners" / "nema_17_v_slot_belt_driven_actuator_500mm.step";
+  const fs::path file =
+      test_data_folder(SOURCE_FOLDER) / "fasteners" / "nema_17_v_slot_belt_driven_actuator_500mm.step";
   if (!fs::exists(file)) GTEST_SKIP() << file << " is not there; DISMANTLE_DATA names the folder of assemblies";
   const Session session;
   const RunContext context = session.context();

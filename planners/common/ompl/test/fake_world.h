@@ -8,7 +8,7 @@
 
 #include "dismantle/path_planner.h"
 
-namespace dismantle::sampling::fake {
+namespace dismantle::fake {
 
 class FakeWorld final : public World {
  public:
@@ -51,4 +51,4 @@ struct FakeSimulator final : Simulator {
   }
 };
 
-}  // namespace dismantle::sampling::fake
+}  // namespace dismantle::fake

@@ -120,7 +120,7 @@ TEST(SamplingProblem, ThinWallIsNeverJumped) {
     fake::FakeSimulator simulator;
     simulator.depth = [&](const Pose& p) { return std::abs(normal.dot(p.t) - at) <= kStep / 2 ? 1.0 : 0.0; };
     const auto prepared = simulator.prepare(assembly, 0.01, context);
-    const dismantle::fake::RuleChecker checker = dismantle::fake::accept_all();
+    const fake::RuleChecker checker = fake::accept_all();
     const PathQuery query{assembly, simulator, *prepared, {{{0, {}}}, {{1, {}}}}, {}, 0.01, checker};
     CheckBudget budget(query, context);
     SamplingProblem problem(query, i % 2 == 0 ? MotionSpace::translation : MotionSpace::rigid, 0.004, kStep, budget);

@@ -14,7 +14,7 @@
 namespace dismantle::sampling {
 namespace {
 
-using dismantle::fake::Ruling;
+using fake::Ruling;
 
 constexpr double kTolerance = 0.01;
 
@@ -34,7 +34,7 @@ struct Task {
   }
   PathResult plan(std::uint64_t seed, dismantle::Budget effort, const TreeParameters& p = {},
                   std::function<Ruling(const Path&)> rule_with = {}) const {
-    const dismantle::fake::RuleChecker checker(rule_with ? rule_with : [this](const Path& path) { return ruling_of(path); });
+    const fake::RuleChecker checker(rule_with ? rule_with : [this](const Path& path) { return ruling_of(path); });
     const PathQuery query{assembly, simulator, *prepared, scene, effort, kTolerance, checker};
     RunContext own;
     own.rng = Rng(seed);
@@ -168,7 +168,7 @@ TEST(TreePlanner, MotionSpaces) {
 /// The nearest exit is the nearest separated state.
 TEST(TreePlanner, ExitsLeadOut) {
   Rng rng(1);
-  const dismantle::fake::RuleChecker checker = dismantle::fake::accept_all();
+  const fake::RuleChecker checker = fake::accept_all();
   const PathQuery query{slot().assembly, slot().simulator, *slot().prepared, slot().scene, {}, 0.01, checker};
   RunContext context;
   CheckBudget budget(query, context);

@@ -59,7 +59,7 @@ struct GateQuery {
   fake::FakeSimulator simulator;
   Assembly assembly = shapes::assembly_of({shapes::box({-1, -1, -1}, {1, 1, 1}), shapes::box({-5, -5, -5}, {5, 5, 5})});
   Scene scene{{{0, {}}}, {{1, {}}}};
-  dismantle::fake::RuleChecker checker = dismantle::fake::accept_all();
+  fake::RuleChecker checker = fake::accept_all();
   std::shared_ptr<const PreparedAssembly> prepared;
   std::unique_ptr<PathQuery> query;
   std::unique_ptr<CheckBudget> budget;

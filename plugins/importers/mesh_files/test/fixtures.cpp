@@ -1,6 +1,7 @@
 #include "test/fixtures.h"
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 #include <stdlib.h>
 
 #include <array>
@@ -9,6 +10,8 @@
 #include <stdexcept>
 
 #include "dismantle/errors.h"
+#include "dismantle/geometry/mesh_measure.h"
+#include "dismantle/geometry/mesh_repair.h"
 #include "dismantle/testing/shapes.h"
 
 namespace dismantle::mesh_files::testing {
@@ -30,6 +33,17 @@ std::uint32_t crc32(std::string_view data) {
 }  // namespace
 
 Mesh box(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi) { return shapes::box(lo, hi); }
+
+void expect_box(const RawPart& part, const Eigen::Vector3d& lo, const Eigen::Vector3d& hi) {
+  EXPECT_EQ(part.problem, "");
+  Mesh m = part.mesh;
+  weld(m, 1e-6);
+  EXPECT_EQ(m.triangles.size(), 12u) << part.name;
+  EXPECT_TRUE(edge_use(m).closed()) << part.name;
+  EXPECT_NEAR(signed_volume(m), (hi - lo).prod(), 1e-4) << part.name;
+  EXPECT_LT((m.box().lo - lo).norm(), 1e-5) << part.name << " " << m.box().lo.transpose();
+  EXPECT_LT((m.box().hi - hi).norm(), 1e-5) << part.name << " " << m.box().hi.transpose();
+}
 
 TempFolder::TempFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "dismantle-XXXXXX").string();

@@ -8,12 +8,16 @@
 #include <utility>
 #include <vector>
 
+#include "dismantle/importer.h"
 #include "dismantle/mesh.h"
 
 namespace dismantle::mesh_files::testing {
 
 /// Box from `lo` to `hi`, outward.
 Mesh box(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi);
+
+/// The part must be a closed outward box from `lo` to `hi`, without a problem.
+void expect_box(const RawPart& part, const Eigen::Vector3d& lo, const Eigen::Vector3d& hi);
 
 /// A temporary folder for one test, removed at its end.
 class TempFolder {

@@ -13,6 +13,7 @@
 namespace dismantle::mesh_files {
 namespace {
 
+using testing::expect_box;
 using testing::TempFolder;
 
 void fill(aiMesh& to, const Mesh& from) {
@@ -57,17 +58,6 @@ void make_scene(aiScene& scene, const std::vector<std::pair<std::string, aiMatri
 
 aiMatrix4x4 affine(float a, float b, float c, float x, float y, float z) {
   return {a, 0, 0, x, 0, b, 0, y, 0, 0, c, z, 0, 0, 0, 1};
-}
-
-/// A part must be a closed outward box with these corners.
-void expect_box(const RawPart& part, const Eigen::Vector3d& lo, const Eigen::Vector3d& hi) {
-  Mesh m = part.mesh;
-  weld(m, 1e-6);
-  EXPECT_EQ(m.triangles.size(), 12u) << part.name;
-  EXPECT_TRUE(edge_use(m).closed()) << part.name;
-  EXPECT_NEAR(signed_volume(m), (hi - lo).prod(), 1e-4) << part.name;
-  EXPECT_LT((m.box().lo - lo).norm(), 1e-5) << part.name << " " << m.box().lo.transpose();
-  EXPECT_LT((m.box().hi - hi).norm(), 1e-5) << part.name << " " << m.box().hi.transpose();
 }
 
 class SceneFormat : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};
